@@ -1,0 +1,91 @@
+/* Pen tablets and buttons: raw HID reports become pen samples and button masks.
+ *
+ *   report descriptor --pen_describe--> layout      (pen_descriptor.c, pure)
+ *   raw report        --pen_read-----> pen sample   (pen_report.c: fields; pen_state.c: contact,
+ *                                                    filter, mapping; pure)
+ */
+#ifndef PEN_H
+#define PEN_H
+
+#include "input.h"
+
+enum { PEN_DEVICES_MAX = 8, PEN_REPORTS_MAX = 6, DESCRIPTOR_BYTES_MAX = 4096 };
+
+/* A field of a report: where its bits lie and what they mean. size 0: the pen has no such field. */
+struct pen_field {
+	int bit;  /* from the start of the report, the id byte included */
+	int size; /* bits, 1..32 */
+	bool is_signed;
+	int minimum, maximum; /* logical */
+};
+
+/* One input report of a device that carries a pen. */
+struct pen_layout {
+	bool absolute_mouse; /* a tablet that calls itself a mouse: button 1 is the tip */
+	int report_id;       /* 0: the device has no ids */
+	int report_bits;     /* whole report, the id byte included */
+	struct pen_field x, y, pressure, tilt_x, tilt_y, twist;
+	struct pen_field tip, in_range, invert, eraser, barrel, barrel_2, serial;
+	float width_mm, height_mm; /* 0: not stated, or stated unbelievably */
+	float tilt_unit_rad;       /* one logical unit of tilt */
+};
+
+enum device_kind {
+	DEVICE_UNKNOWN,
+	DEVICE_PEN,
+	DEVICE_BUTTONS, /* our own one-byte report: bit per enum button */
+};
+
+struct pen_device {
+	enum device_kind kind;
+	int layout_count;
+	struct pen_layout layout[PEN_REPORTS_MAX];
+	char reason[160]; /* DEVICE_UNKNOWN: why, in words */
+	/* contact, filter and mapping state follows */
+	enum pen_state state;
+	int64_t last_us, contact_us;
+	struct v2 filtered_mm, speed_mm_s;
+	struct v2 last_px;
+	float pressure;
+	bool moved; /* a first sample has been seen since proximity began */
+};
+
+/* How tablet millimetres become screen pixels: one scale, the larger axis letter-boxed. */
+struct pen_mapping {
+	int width_px, height_px;
+};
+
+struct pen {
+	struct pen_mapping mapping;
+	uint8_t buttons_held;
+	struct pen_device device[PEN_DEVICES_MAX];
+};
+
+void pen_init(struct pen *pen, int width_px, int height_px);
+
+/* Learns a device from its report descriptor. Any bytes are safe. */
+void pen_describe(struct pen *pen, int device, const uint8_t *descriptor, int size);
+
+/* Reads a descriptor only: the layouts of every pen report in it; returns their number, 0 with the
+ * reason in words when there is no pen. */
+int pen_descriptor_read(const uint8_t *descriptor, int size,
+			struct pen_layout layout[PEN_REPORTS_MAX], char reason[160]);
+
+/* A device went away: a stroke in progress ends with a sample of its own. */
+void pen_unplugged(struct pen *pen, int device, struct frame_input *input);
+
+/* One frame's reports to samples and button masks; `now_us` is the frame's end and lets time-outs
+ * end strokes that the pen never ended. Adds to input (zeroed by the caller). */
+void pen_read(struct pen *pen, const struct frame_reports *reports, int64_t now_us,
+	      struct frame_input *input);
+
+/* The descriptor of our buttons as a tape device (Button page, three buttons, five bits padding).
+ */
+extern const uint8_t buttons_descriptor[];
+extern const int buttons_descriptor_size;
+
+/* The descriptor of the desktop's mouse as a pen (absolute, 16 bit, tip, in range, pressure). */
+extern const uint8_t mouse_descriptor[];
+extern const int mouse_descriptor_size;
+
+#endif

@@ -1,0 +1,95 @@
+/* The body to be dressed: a closed triangle mesh with everything that finds its surface quickly.
+ * Metres, +Y up, feet at y = 0, facing +Z, so that the wearer's left is +X. */
+#ifndef BODY_H
+#define BODY_H
+
+#include "arena.h"
+#include "garment.h"
+#include "vec.h"
+
+enum body_part {
+	PART_TRUNK,
+	PART_HEAD, /* with the neck */
+	PART_ARM_LEFT,
+	PART_ARM_RIGHT,
+	PART_LEG_LEFT,
+	PART_LEG_RIGHT,
+	PART_COUNT,
+};
+
+/* A bone is a segment well inside its part. */
+struct bone {
+	enum body_part part;
+	struct v3 a_m, b_m; /* from the trunk outward */
+	float radius_m;     /* mean distance to the surface */
+};
+
+struct bvh_node {
+	struct v3 low_m, high_m;
+	int first; /* first triangle slot (leaf) or left child; the right child follows it */
+	int count; /* triangles in a leaf, 0 in an inner node */
+};
+
+struct body {
+	int vertex_count;
+	struct v3 *position_m;
+	struct v3 *normal; /* angle-weighted, outward */
+	int triangle_count;
+	struct triangle *triangle;
+	struct v3 *face_normal;
+	int *neighbour;  /* 3 per triangle: across the edge v[k] v[k+1]; -1 at a rim */
+	int *star_first; /* per vertex + 1: its triangles are star[star_first[v] ..] */
+	int *star;
+	uint8_t *part; /* per triangle: enum body_part */
+	int node_count;
+	struct bvh_node *node;
+	int *node_triangle; /* slots */
+	int bone_count;
+	struct bone bone[BODY_BONES_MAX];
+	struct v3 low_m, high_m;
+	uint64_t hash; /* of positions and triangles: names the body in a journal */
+	void *scratch; /* owned by body_*.c */
+};
+
+struct body_hit {
+	int triangle;
+	struct v3 point_m;
+	struct v3 normal; /* smooth, outward: angle-weighted and interpolated */
+	float distance_m; /* nearest queries: signed, negative inside. rays: along the ray */
+};
+
+void body_init(struct body *body, struct arena *arena);
+
+/* Takes a mesh (copied). Returns NULL or what is wrong with it in words (empty, an index out of
+ * range, not finite, too many for the pools, an open or non-manifold edge, no volume). Builds
+ * normals, neighbours, stars and the tree. Does not find parts: see body_find_parts. */
+const char *body_build(struct body *body, const struct v3 *position_m, int vertex_count,
+		       const struct triangle *triangle, int triangle_count);
+
+/* Builds the mannequin of this house into the body (generator: body_mannequin.c). */
+const char *body_build_mannequin(struct body *body);
+
+/* Head, arms, legs and bones for any standing figure (S19). Returns false when no arms, legs and
+ * head were found: then everything is trunk and there are no bones. */
+bool body_find_parts(struct body *body);
+
+/* Exact nearest surface point. `parts` is a bit set of enum body_part to consider; 0 means all. */
+void body_nearest(const struct body *body, struct v3 point_m, unsigned parts, struct body_hit *hit);
+
+/* The nearest point found by walking downhill from triangle `from` over stars, at most `steps_max`
+ * steps (S17). Local: may be stuck on another limb; the caller refreshes by body_nearest. Returns
+ * the triangles looked at. */
+int body_walk(const struct body *body, struct v3 point_m, int from, int steps_max,
+	      struct body_hit *hit);
+
+/* First hit of a ray with a front face (or, with `back`, the last hit with a back face: laser
+ * mode's other side). Direction of any length; distance in units of it. False: no hit. */
+bool body_ray(const struct body *body, struct v3 origin_m, struct v3 direction,
+	      struct body_hit *hit);
+bool body_ray_back(const struct body *body, struct v3 origin_m, struct v3 direction,
+		   struct body_hit *hit);
+
+/* Does the segment pass through the surface? */
+bool body_segment_hits(const struct body *body, struct v3 a_m, struct v3 b_m, struct body_hit *hit);
+
+#endif

@@ -1,0 +1,98 @@
+/* The cloth solver: particles that are moved directly, without velocities (S18).
+ *
+ * One sweep is: momentum and gravity as displacements, seams, long-range limits, triangle shape
+ * matching, flatness of edges, pins, a bound on each step, then contact with the body, which has
+ * the last word. A sweep's work is fixed by the mesh; nothing iterates until converged.
+ */
+#ifndef CLOTH_H
+#define CLOTH_H
+
+#include "body.h"
+#include "garment.h"
+
+/* Where a particle touches or nearly touches the body, kept from sweep to sweep (S17). */
+struct contact {
+	int triangle; /* body.triangle, -1: never looked */
+	struct v3 point_m, normal;
+	float distance_m;
+};
+
+/* Edge a-b with the two far corners c and d of its triangles: flat when sum k[i] x[v[i]] = 0. */
+struct flat {
+	int v[4];
+	float k[4];
+	float k_norm; /* sum of squares */
+};
+
+struct reach {
+	int a, b;
+	float length_m; /* never farther apart than on the flat piece */
+};
+
+struct cloth_settings {
+	float shape;       /* 0..1: share of a triangle's way back to its rest shape */
+	float flatness;    /* 0..1 */
+	float reach;       /* 0..1: long-range limits */
+	float momentum;    /* 0..1: share of the last step carried on */
+	float gravity_m;   /* displacement a sweep */
+	float friction;    /* 0..1: share of tangential motion lost in contact */
+	float offset_m;    /* cloth stays this far outside the body */
+	float step_max_m;  /* bound on a particle's motion in one sweep */
+	float seam_step_m; /* bound on the closing of a seam in one sweep; 0: seams don't pull */
+	float attract_m;   /* pull towards a body farther than 35 mm; 0: none */
+	bool filter_parts; /* each piece only meets the body parts that piece_parts allows */
+	bool faces;        /* also keep edge midpoints and triangle centres outside */
+};
+
+struct cloth {
+	const struct garment *garment;
+	const struct body *body;
+	struct v3 *position_m; /* per garment vertex; welded: read through cloth_particle */
+	struct v3 *previous_m;
+	struct contact *contact;
+	uint8_t *placed; /* the wrap has laid this vertex */
+	uint8_t *held;   /* 1: goal_m pulls (marks, pins, the grabbed point) */
+	struct v3 *goal_m;
+	bool welded;
+	bool worn;                        /* a wrap has finished: there is a garment to drag */
+	unsigned piece_parts[PIECES_MAX]; /* bit set of enum body_part; 0: all */
+	int *particle;                    /* per vertex: itself, or weld[] once welded */
+	struct triangle *triangle;        /* through particle[] */
+	int flat_count;
+	struct flat *flat;
+	int reach_count;
+	struct reach *reach;
+	int sweep; /* counted for the time-sliced refresh */
+	struct cloth_settings settings;
+	void *scratch; /* owned by cloth_*.c */
+};
+
+void cloth_init(struct cloth *cloth, struct arena *arena);
+
+/* Nothing placed, not welded; constraints for this garment on this body. */
+void cloth_reset(struct cloth *cloth, const struct garment *garment, const struct body *body);
+
+/* Joins every seam pair at the mean of its sides and rebuilds the constraints. */
+void cloth_weld(struct cloth *cloth);
+
+/* One sweep. Returns the units spent (constraint projections and triangles walked). */
+long cloth_sweep(struct cloth *cloth);
+
+/* The settings of everyday relaxation (worn garment, gravity on). */
+struct cloth_settings cloth_settings_worn(void);
+
+/* Mends folded patches: triangles that face the body turn back with their ring (S18's last clause).
+ * Returns how many were found. */
+int cloth_unfold(struct cloth *cloth);
+
+/* Pushes edges out that pass through the body. Returns how many were found. */
+int cloth_push_out(struct cloth *cloth);
+
+/* Outward normals per vertex for drawing, into `normal` (vertex_count). */
+void cloth_normals(const struct cloth *cloth, struct v3 *normal);
+
+/* The first triangle that a ray hits among placed cloth, nearer than distance_max; -1: none. */
+int cloth_ray(const struct cloth *cloth, struct v3 origin_m, struct v3 direction, float *distance,
+	      float weight[3]);
+
+#endif

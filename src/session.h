@@ -1,0 +1,70 @@
+/* The whole state of one visit, and the two verbs that change it. */
+#ifndef SESSION_H
+#define SESSION_H
+
+#include "body.h"
+#include "dress.h"
+#include "edit.h"
+#include "garment.h"
+#include "measure.h"
+#include "pattern.h"
+
+enum session_job {
+	JOB_NONE,
+	JOB_MESH, /* the pattern is being triangulated */
+	JOB_WRAP, /* the garment is growing on the body */
+};
+
+/* What undo brings back (the cloth's state lies beside it). */
+struct document {
+	struct pattern pattern;
+	struct marks marks;
+	struct pin pin[PINS_MAX];
+};
+
+struct undo; /* ring of whole states */
+
+struct session {
+	struct document document;
+	struct body body;
+	struct garment garment;
+	struct cloth cloth;
+	struct wrap wrap;
+	struct drag drag;
+	struct v3 drag_target_m;
+	bool relaxing; /* RELAX is held */
+	enum session_job job;
+	struct garment_job *mesher;
+	struct undo *undo;
+	int undo_count, redo_count; /* steps that can be taken */
+	int frame;                  /* frames advanced */
+	int vertices_wanted;        /* mesh resolution for the next wrap */
+	long budget_units;          /* per frame */
+	long work_units;            /* spent so far */
+	long frame_units;           /* spent in the last frame */
+	int rest_frames;            /* frames since the cloth last had a reason to move */
+	float strain_left;          /* 0..1 meter: mean stretch of the worn cloth against 10 % */
+	char notice[160];           /* why the last edit was refused; empty: it was taken */
+};
+
+/* Takes all memory from the arena. Body: none yet; call body_build* on session->body next. */
+void session_init(struct session *session, struct arena *arena);
+size_t session_bytes(void); /* what session_init takes, at the most */
+
+/* Applies one edit. False: refused, and session->notice says why; nothing has changed. STEP and
+ * SETTLE advance frames; all others are immediate. */
+bool session_apply(struct session *session, const struct edit *edit);
+
+/* One frame: long jobs advance by the budget, or the cloth moves by it. */
+void session_advance(struct session *session);
+
+/* True while a job runs or the cloth was touched within the last two seconds. */
+bool session_busy(const struct session *session);
+
+/* Document, cloth and pins; not the body's mesh but its hash. */
+uint64_t session_hash(const struct session *session);
+
+/* Lowest free mark number on a side (0 cloth, 1 body). */
+int session_next_mark(const struct session *session, int side);
+
+#endif

@@ -1,0 +1,22 @@
+/* The picture: body, cloth and marks by GLES; pattern sheet, bars and text by cairo and Pango on
+ * cached layers that are redrawn only where they changed. Needs a current GLES 3.0 context (used in
+ * a GLES 2 shape). All GL objects can be made again from CPU data. */
+#ifndef DRAW_H
+#define DRAW_H
+
+#include "ui.h"
+
+struct draw;
+
+/* Everything drawing will need for this screen size. NULL with a line in fault when GL or a font is
+ * at fault. Memory: malloc at start, none of ours per frame. */
+struct draw *draw_open(int width, int height, char fault[200]);
+
+/* Draws one whole frame into the currently bound framebuffer. */
+void draw_frame(struct draw *draw, const struct ui *ui, const struct session *session);
+void draw_close(struct draw *draw);
+
+/* The body's mesh changed (start, another character). */
+void draw_body_changed(struct draw *draw);
+
+#endif
