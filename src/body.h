@@ -60,9 +60,11 @@ struct body_hit {
 
 void body_init(struct body *body, struct arena *arena);
 
-/* Takes a mesh (copied). Returns NULL or what is wrong with it in words (empty, an index out of
- * range, not finite, too many for the pools, an open or non-manifold edge, no volume). Builds
- * normals, neighbours, stars and the tree. Does not find parts: see body_find_parts. */
+/* Takes a mesh (copied; it may already lie in the body's own position_m and triangle pools, as the
+ * mannequin's does, so copy with memmove). Returns NULL or what is wrong with it in words (empty,
+ * an index out of range, not finite, too many for the pools, an open or non-manifold edge, no
+ * volume). Builds normals, neighbours, stars and the tree. Does not find parts: see
+ * body_find_parts. */
 const char *body_build(struct body *body, const struct v3 *position_m, int vertex_count,
 		       const struct triangle *triangle, int triangle_count);
 
