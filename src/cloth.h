@@ -69,7 +69,7 @@ struct cloth {
 
 void cloth_init(struct cloth *cloth, struct arena *arena);
 
-/* Nothing placed, not welded; constraints for this garment on this body. */
+/* Nothing placed, not welded; constraints for this garment on this body. Garment NULL: no cloth. */
 void cloth_reset(struct cloth *cloth, const struct garment *garment, const struct body *body);
 
 /* Joins every seam pair at the mean of its sides and rebuilds the constraints. */
@@ -80,6 +80,21 @@ long cloth_sweep(struct cloth *cloth);
 
 /* The settings of everyday relaxation (worn garment, gravity on). */
 struct cloth_settings cloth_settings_worn(void);
+
+/* The settings while RELAX is held: less friction, so that strain can flow out. */
+struct cloth_settings cloth_settings_relax(void);
+
+/* After the last sweep of a frame: every vertex of a welded cloth takes its particle's position, so
+ * that readers may use position_m[v] directly. */
+void cloth_finish(struct cloth *cloth);
+
+/* Mean stretch of the placed triangles (0.02: 2 %); cheap, for the visitor's meter. */
+float cloth_strain_mean(const struct cloth *cloth);
+
+/* Puts a cloth back into an earlier state (undo): constraints for this garment, welded or not, then
+ * these positions at rest; contacts are looked up afresh. */
+void cloth_restore(struct cloth *cloth, const struct garment *garment, const struct body *body,
+		   const struct v3 *position_m, const uint8_t *placed, bool welded, bool worn);
 
 /* Mends folded patches: triangles that face the body turn back with their ring (S18's last clause).
  * Returns how many were found. */

@@ -12,7 +12,7 @@
 
 #include "edit.h"
 
-enum { JOURNAL_LINE_MAX = 24 * 1024 };
+enum { JOURNAL_LINE_MAX = 32 * 1024 };
 
 #define JOURNAL_HEADER "kitsuke-journal 1\n"
 

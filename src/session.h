@@ -43,13 +43,13 @@ struct session {
 	long work_units;            /* spent so far */
 	long frame_units;           /* spent in the last frame */
 	int rest_frames;            /* frames since the cloth last had a reason to move */
+	struct v3 *frame_start_m;   /* the cloth as the frame began, to see whether it rests */
 	float strain_left;          /* 0..1 meter: mean stretch of the worn cloth against 10 % */
 	char notice[160];           /* why the last edit was refused; empty: it was taken */
 };
 
 /* Takes all memory from the arena. Body: none yet; call body_build* on session->body next. */
 void session_init(struct session *session, struct arena *arena);
-size_t session_bytes(void); /* what session_init takes, at the most */
 
 /* Applies one edit. False: refused, and session->notice says why; nothing has changed. STEP and
  * SETTLE advance frames; all others are immediate. */

@@ -1,0 +1,231 @@
+/* The edits on and around the body: marks, wrap, drag, pins, relax (S6 to S12). */
+#include "session_private.h"
+#include "session_undo.h"
+
+static bool number_is_sane(int number)
+{
+	return number >= 1 && number <= 99;
+}
+
+/* Which point of a line of `count` points stands at place i of `kept`, both ends included. */
+static int thinned(int i, int kept, int count)
+{
+	return kept == count ? i : i * (count - 1) / (kept - 1);
+}
+
+/* A number drawn again replaces the old line. */
+static const char *mark_cloth(struct session *session, const struct edit *edit)
+{
+	int number = edit->i[0], piece = edit->i[1];
+	if (!number_is_sane(number))
+		return "marks are numbered from 1 to 99";
+	if (piece < 0 || piece >= PIECES_MAX || !session->document.pattern.piece[piece].used)
+		return "there is no such piece";
+	if (edit->point_count < 2)
+		return "a mark is a line of at least two points";
+	struct cloth_mark *mark = NULL;
+	for (int pass = 0; pass < 2 && !mark; pass++)
+		for (int m = 0; m < MARKS_MAX && !mark; m++) {
+			struct cloth_mark *at = &session->document.marks.cloth[m];
+			if (pass == 0 ? at->used && at->number == number : !at->used)
+				mark = at;
+		}
+	if (!mark)
+		return "there are as many marks as fit; erase one first";
+	undo_keep(session);
+	mark->used = true;
+	mark->number = number;
+	mark->piece = piece;
+	mark->point_count = int_min(edit->point_count, MARK_POINTS_MAX);
+	for (int i = 0; i < mark->point_count; i++) {
+		int from = thinned(i, mark->point_count, edit->point_count);
+		mark->point_mm[i] = (struct v2){edit->point[from].x, edit->point[from].y};
+	}
+	return NULL;
+}
+
+static const char *mark_body(struct session *session, const struct edit *edit)
+{
+	int number = edit->i[0];
+	if (!number_is_sane(number))
+		return "marks are numbered from 1 to 99";
+	if (edit->point_count < 2)
+		return "a mark is a line of at least two points";
+	if (session->body.triangle_count == 0)
+		return "there is no body to draw on";
+	struct body_mark *mark = NULL;
+	for (int pass = 0; pass < 2 && !mark; pass++)
+		for (int m = 0; m < MARKS_MAX && !mark; m++) {
+			struct body_mark *at = &session->document.marks.body[m];
+			if (pass == 0 ? at->used && at->number == number : !at->used)
+				mark = at;
+		}
+	if (!mark)
+		return "there are as many marks as fit; erase one first";
+	undo_keep(session);
+	mark->used = true;
+	mark->number = number;
+	mark->point_count = int_min(edit->point_count, MARK_POINTS_MAX);
+	for (int i = 0; i < mark->point_count; i++) {
+		struct body_hit hit;
+		int from = thinned(i, mark->point_count, edit->point_count);
+		body_nearest(&session->body, edit->point[from], 0, &hit);
+		mark->point_m[i] = hit.point_m;
+		mark->normal[i] = hit.normal;
+	}
+	return NULL;
+}
+
+static const char *unmark(struct session *session, const struct edit *edit)
+{
+	struct marks *marks = &session->document.marks;
+	for (int m = 0; m < MARKS_MAX; m++) {
+		bool *used = edit->i[0] == 0 ? &marks->cloth[m].used : &marks->body[m].used;
+		int number = edit->i[0] == 0 ? marks->cloth[m].number : marks->body[m].number;
+		if (!*used || number != edit->i[1])
+			continue;
+		undo_keep(session);
+		*used = false;
+		return NULL;
+	}
+	return "there is no mark with that number";
+}
+
+static const char *wrap_garment(struct session *session)
+{
+	undo_keep(session);
+	memset(session->document.pin, 0, sizeof session->document.pin);
+	return session_wrap(session);
+}
+
+/* The worn triangle under a point of a piece; -1 with the reason. */
+static int worn_triangle(const struct session *session, const struct edit *edit, float weight[3],
+			 const char **why)
+{
+	if (!session->cloth.worn || session->job != JOB_NONE) {
+		*why = "nothing is worn yet; press WRAP first";
+		return -1;
+	}
+	int triangle = -1;
+	if (edit->i[0] >= 0 && edit->i[0] < PIECES_MAX)
+		triangle = garment_locate(&session->garment, edit->i[0],
+					  (struct v2){edit->f[0], edit->f[1]}, weight);
+	*why = triangle < 0 ? "there is no cloth at that place" : NULL;
+	return triangle;
+}
+
+static int used_pins(const struct session *session)
+{
+	int count = 0;
+	for (int p = 0; p < PINS_MAX; p++)
+		count += session->document.pin[p].used;
+	return count;
+}
+
+static const char *grab(struct session *session, const struct edit *edit)
+{
+	const char *why;
+	float weight[3];
+	int triangle = worn_triangle(session, edit, weight, &why);
+	if (triangle < 0)
+		return why;
+	session_release(session);
+	undo_keep(session);
+	drag_begin(&session->drag, &session->cloth, session->document.pin,
+		   used_pins(session) > 0 ? PINS_MAX : 0, triangle, weight);
+	session->drag_target_m = drag_point(&session->drag);
+	return NULL;
+}
+
+static const char *drag(struct session *session, const struct edit *edit)
+{
+	if (!session->drag.active)
+		return "nothing is held; grab the cloth first";
+	struct v3 target = {edit->f[0], edit->f[1], edit->f[2]};
+	if (!(v3_length(target) < 100.0f))
+		return "the target is too far away";
+	session->drag_target_m = target;
+	return NULL;
+}
+
+static struct v3 point_on(const struct cloth *cloth, int triangle, const float weight[3])
+{
+	struct v3 point = {0};
+	for (int k = 0; k < 3; k++)
+		point = v3_mad(point, cloth->position_m[cloth->garment->triangle[triangle].v[k]],
+			       weight[k]);
+	return point;
+}
+
+static const char *pin(struct session *session, const struct edit *edit)
+{
+	const char *why;
+	float weight[3];
+	int triangle = worn_triangle(session, edit, weight, &why);
+	if (triangle < 0)
+		return why;
+	for (int p = 0; p < PINS_MAX; p++) {
+		struct pin *at = &session->document.pin[p];
+		if (at->used)
+			continue;
+		undo_keep(session);
+		*at = (struct pin){true, edit->i[0], {edit->f[0], edit->f[1]}, {0.0f, 0.0f, 0.0f}};
+		at->held_m = point_on(&session->cloth, triangle, weight);
+		session_hold_pins(session);
+		return NULL;
+	}
+	return "there are as many pins as fit; take one out first";
+}
+
+static const char *unpin(struct session *session, const struct edit *edit)
+{
+	int p = edit->i[0];
+	if (p < 0 || p >= PINS_MAX || !session->document.pin[p].used)
+		return "there is no such pin";
+	undo_keep(session);
+	session->document.pin[p].used = false;
+	session_hold_pins(session);
+	return NULL;
+}
+
+static const char *relax(struct session *session, const struct edit *edit)
+{
+	bool on = edit->i[0] != 0;
+	if (on && !session->cloth.worn)
+		return "nothing is worn yet; press WRAP first";
+	if (on && !session->relaxing)
+		undo_keep(session);
+	session->relaxing = on;
+	return NULL;
+}
+
+const char *session_edit_dress(struct session *session, const struct edit *edit)
+{
+	session_wake(session);
+	switch (edit->kind) {
+	case EDIT_MARK_CLOTH:
+		return mark_cloth(session, edit);
+	case EDIT_MARK_BODY:
+		return mark_body(session, edit);
+	case EDIT_UNMARK:
+		return unmark(session, edit);
+	case EDIT_WRAP:
+		return wrap_garment(session);
+	case EDIT_GRAB:
+		return grab(session, edit);
+	case EDIT_DRAG:
+		return drag(session, edit);
+	case EDIT_RELEASE:
+		session_release(session);
+		return NULL;
+	case EDIT_PIN:
+		return pin(session, edit);
+	case EDIT_UNPIN:
+		return unpin(session, edit);
+	case EDIT_RELAX:
+		return relax(session, edit);
+	default:
+		MUST(!"an edit around the body");
+		return NULL;
+	}
+}

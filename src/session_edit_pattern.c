@@ -1,0 +1,279 @@
+/* The edits of the flat pattern: pieces and seams (S2 to S4). */
+#include "session_private.h"
+#include "session_undo.h"
+
+static bool piece_exists(const struct session *session, int piece)
+{
+	return piece >= 0 && piece < PIECES_MAX && session->document.pattern.piece[piece].used;
+}
+
+static const char no_piece[] = "there is no such piece";
+
+static int free_piece(const struct session *session)
+{
+	for (int i = 0; i < PIECES_MAX; i++)
+		if (!session->document.pattern.piece[i].used)
+			return i;
+	return -1;
+}
+
+static int top_layer(const struct pattern *pattern)
+{
+	int top = 0;
+	for (int i = 0; i < PIECES_MAX; i++)
+		if (pattern->piece[i].used)
+			top = int_max(top, pattern->piece[i].layer);
+	return top;
+}
+
+static void take_outline(struct piece *piece, const struct edit *edit)
+{
+	piece->point_count = edit->point_count;
+	for (int i = 0; i < edit->point_count; i++) {
+		piece->point_mm[i] = (struct v2){edit->point[i].x, edit->point[i].y};
+		piece->corner[i] = edit->corner[i];
+	}
+}
+
+static bool place_is_sane(float x_mm, float y_mm, float turn_rad)
+{
+	return float_abs(x_mm) <= 20000.0f && float_abs(y_mm) <= 20000.0f &&
+	       float_abs(turn_rad) <= 100.0f;
+}
+
+static const char *add_piece(struct session *session, const struct edit *edit)
+{
+	struct pattern *pattern = &session->document.pattern;
+	int at = free_piece(session);
+	if (at < 0)
+		return "the pattern is full; delete a piece first";
+	struct piece piece;
+	memset(&piece, 0, sizeof piece);
+	piece.used = true;
+	memcpy(piece.name, edit->name, NAME_BYTES_MAX);
+	piece.swatch = edit->i[0] & 7;
+	piece.inside_up = edit->i[1] != 0;
+	piece.position_mm = (struct v2){edit->f[0], edit->f[1]};
+	piece.turn_rad = edit->f[2];
+	piece.layer = top_layer(pattern) + 1;
+	take_outline(&piece, edit);
+	if (!place_is_sane(edit->f[0], edit->f[1], edit->f[2]))
+		return "the piece lies too far away";
+	const char *fault = piece_fault(&piece);
+	if (fault)
+		return fault;
+	undo_keep(session);
+	pattern->piece[at] = piece;
+	return NULL;
+}
+
+/* After an outline changed, each seam on it moves to the new edge that lies nearest to the middle
+ * of its old one. */
+static void move_seams(struct pattern *pattern, int at, const struct piece *old)
+{
+	for (int s = 0; s < SEAMS_MAX; s++) {
+		struct seam *seam = &pattern->seam[s];
+		struct edge_ref *side[2] = {&seam->a, &seam->b};
+		for (int k = 0; seam->used && k < 2; k++) {
+			if (side[k]->piece != at)
+				continue;
+			float fraction;
+			struct v2 middle = piece_edge_point(old, side[k]->edge, 0.5f);
+			piece_nearest_edge(&pattern->piece[at], middle, &side[k]->edge, &fraction);
+		}
+		if (seam->used && seam->a.piece == seam->b.piece && seam->a.edge == seam->b.edge)
+			seam->used = false;
+	}
+}
+
+static const char *change_outline(struct session *session, const struct edit *edit)
+{
+	int at = edit->i[0];
+	if (!piece_exists(session, at))
+		return no_piece;
+	struct piece old, changed;
+	old = session->document.pattern.piece[at];
+	changed = old;
+	take_outline(&changed, edit);
+	const char *fault = piece_fault(&changed);
+	if (fault)
+		return fault;
+	undo_keep(session);
+	session->document.pattern.piece[at] = changed;
+	move_seams(&session->document.pattern, at, &old);
+	return NULL;
+}
+
+static const char *place_piece(struct session *session, const struct edit *edit)
+{
+	if (!piece_exists(session, edit->i[0]))
+		return no_piece;
+	if (!place_is_sane(edit->f[0], edit->f[1], edit->f[2]))
+		return "the piece would lie too far away";
+	undo_keep(session);
+	struct pattern *pattern = &session->document.pattern;
+	struct piece *piece = &pattern->piece[edit->i[0]];
+	piece->inside_up = edit->i[1] != 0;
+	piece->position_mm = (struct v2){edit->f[0], edit->f[1]};
+	piece->turn_rad = edit->f[2];
+	piece->layer = top_layer(pattern) + 1;
+	return NULL;
+}
+
+static const char *copy_piece(struct session *session, const struct edit *edit)
+{
+	if (!piece_exists(session, edit->i[0]))
+		return no_piece;
+	int at = free_piece(session);
+	if (at < 0)
+		return "the pattern is full; delete a piece first";
+	struct pattern *pattern = &session->document.pattern;
+	struct v2 place = v2_add(pattern->piece[edit->i[0]].position_mm,
+				 (struct v2){edit->f[0], edit->f[1]});
+	if (!place_is_sane(place.x, place.y, 0.0f))
+		return "the copy would lie too far away";
+	undo_keep(session);
+	pattern->piece[at] = pattern->piece[edit->i[0]];
+	pattern->piece[at].position_mm = place;
+	pattern->piece[at].layer = top_layer(pattern) + 1;
+	return NULL;
+}
+
+/* The mirror image in x, kept counter-clockwise by walking the outline backwards. Edge k of n
+ * becomes edge n - 1 - k because the walk begins at the same corner. */
+static const char *mirror_piece(struct session *session, const struct edit *edit)
+{
+	int at = edit->i[0];
+	if (!piece_exists(session, at))
+		return no_piece;
+	undo_keep(session);
+	struct pattern *pattern = &session->document.pattern;
+	struct piece *piece = &pattern->piece[at];
+	struct piece old;
+	old = *piece;
+	int count = piece->point_count, first, last;
+	piece_edge(&old, 0, &first, &last);
+	for (int i = 0; i < count; i++) {
+		int from = (first - i + count) % count;
+		piece->point_mm[i] = (struct v2){-old.point_mm[from].x, old.point_mm[from].y};
+		piece->corner[i] = old.corner[from];
+	}
+	int edges = piece_edge_count(&old);
+	for (int s = 0; s < SEAMS_MAX; s++) {
+		struct seam *seam = &pattern->seam[s];
+		if (seam->used && seam->a.piece == at)
+			seam->a.edge = edges - 1 - seam->a.edge;
+		if (seam->used && seam->b.piece == at)
+			seam->b.edge = edges - 1 - seam->b.edge;
+		if (seam->used && (seam->a.piece == at) != (seam->b.piece == at))
+			seam->swapped = !seam->swapped;
+	}
+	for (int m = 0; m < MARKS_MAX; m++) {
+		struct cloth_mark *mark = &session->document.marks.cloth[m];
+		for (int i = 0; mark->used && mark->piece == at && i < mark->point_count; i++)
+			mark->point_mm[i].x = -mark->point_mm[i].x;
+	}
+	return NULL;
+}
+
+static const char *delete_piece(struct session *session, const struct edit *edit)
+{
+	int at = edit->i[0];
+	if (!piece_exists(session, at))
+		return no_piece;
+	undo_keep(session);
+	struct document *document = &session->document;
+	document->pattern.piece[at].used = false;
+	for (int s = 0; s < SEAMS_MAX; s++) {
+		struct seam *seam = &document->pattern.seam[s];
+		if (seam->a.piece == at || seam->b.piece == at)
+			seam->used = false;
+	}
+	for (int m = 0; m < MARKS_MAX; m++)
+		if (document->marks.cloth[m].piece == at)
+			document->marks.cloth[m].used = false;
+	return NULL;
+}
+
+static const char *colour_piece(struct session *session, const struct edit *edit)
+{
+	if (!piece_exists(session, edit->i[0]))
+		return no_piece;
+	undo_keep(session);
+	session->document.pattern.piece[edit->i[0]].swatch = edit->i[1] & 7;
+	return NULL;
+}
+
+static bool edge_exists(const struct session *session, int piece, int edge)
+{
+	return piece_exists(session, piece) && edge >= 0 &&
+	       edge < piece_edge_count(&session->document.pattern.piece[piece]);
+}
+
+static bool edge_is_sewn(const struct pattern *pattern, struct edge_ref edge)
+{
+	for (int s = 0; s < SEAMS_MAX; s++) {
+		const struct seam *seam = &pattern->seam[s];
+		if (seam->used && ((seam->a.piece == edge.piece && seam->a.edge == edge.edge) ||
+				   (seam->b.piece == edge.piece && seam->b.edge == edge.edge)))
+			return true;
+	}
+	return false;
+}
+
+static const char *sew(struct session *session, const struct edit *edit)
+{
+	struct pattern *pattern = &session->document.pattern;
+	struct edge_ref a = {edit->i[0], edit->i[1]}, b = {edit->i[2], edit->i[3]};
+	if (!edge_exists(session, a.piece, a.edge) || !edge_exists(session, b.piece, b.edge))
+		return "there is no such edge";
+	if (a.piece == b.piece && a.edge == b.edge)
+		return "an edge can't be sewn to itself";
+	if (edge_is_sewn(pattern, a) || edge_is_sewn(pattern, b))
+		return "that edge is sewn already; undo its seam first";
+	for (int s = 0; s < SEAMS_MAX; s++) {
+		if (pattern->seam[s].used)
+			continue;
+		undo_keep(session);
+		pattern->seam[s] = (struct seam){true, edit->i[4] != 0, a, b};
+		return NULL;
+	}
+	return "there are as many seams as fit; remove one first";
+}
+
+static const char *unsew(struct session *session, const struct edit *edit)
+{
+	int s = edit->i[0];
+	if (s < 0 || s >= SEAMS_MAX || !session->document.pattern.seam[s].used)
+		return "there is no such seam";
+	undo_keep(session);
+	session->document.pattern.seam[s].used = false;
+	return NULL;
+}
+
+const char *session_edit_pattern(struct session *session, const struct edit *edit)
+{
+	switch (edit->kind) {
+	case EDIT_PIECE:
+		return add_piece(session, edit);
+	case EDIT_OUTLINE:
+		return change_outline(session, edit);
+	case EDIT_PLACE:
+		return place_piece(session, edit);
+	case EDIT_COPY:
+		return copy_piece(session, edit);
+	case EDIT_MIRROR:
+		return mirror_piece(session, edit);
+	case EDIT_DELETE:
+		return delete_piece(session, edit);
+	case EDIT_SWATCH:
+		return colour_piece(session, edit);
+	case EDIT_SEW:
+		return sew(session, edit);
+	case EDIT_UNSEW:
+		return unsew(session, edit);
+	default:
+		MUST(!"an edit of the pattern");
+		return NULL;
+	}
+}
