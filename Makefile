@@ -10,11 +10,11 @@ build ?= build
 B := $(build)/$(config)
 
 # A folder may include only what stands on its line. This is the layer rule.
-INC_src           := -Isrc
-INC_drivers       := -Isrc -Idrivers
-INC_ui            := -Isrc -Iui
-INC_firmware-host := -Isrc -Idrivers -Iui -Ifirmware-host
-INC_tests         := $(INC_firmware-host) -Itests
+INC_src           := -iquote src
+INC_drivers       := -iquote src -iquote drivers
+INC_ui            := -iquote src -iquote ui
+INC_firmware-host := -iquote src -iquote drivers -iquote ui -iquote firmware-host
+INC_tests         := $(INC_firmware-host) -iquote tests
 
 CFLAGS_common   := -std=c17 -D_GNU_SOURCE -g -MMD -MP -ffp-contract=off -fno-strict-aliasing \
                    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes \
