@@ -10,10 +10,7 @@
 
 #include "arena.h"
 #include "pattern.h"
-
-struct triangle {
-	int v[3]; /* counter-clockwise seen from the outside */
-};
+#include "triangle.h"
 
 struct seam_pair {
 	int a, b; /* garment vertices to be joined */
