@@ -1,13 +1,19 @@
-# make            build kitsuke (build/release/kitsuke)
-# make run        build, install what is missing, and run the main job
-# make check      build and pass the tests
-# make config=…   release (default), debug, sanitize, coverage, fuzz (with CC=clang)
-# make format     clang-format everything
-# make clean
+# make              build kitsuke (build/release/kitsuke)
+# make run          install what is missing, build, and run the main job
+# make check        install what is missing, build, and pass the tests and the layer checks
+# make bench        microseconds and work units per stage of a frame
+# make fuzz         every fuzzer for FUZZ_SECONDS (10) each
+# make hash-matrix  the bundled tape's hash over compilers, levels, sanitizers and aarch64
+# make format       clang-format everything; format-check only looks
+# make clean        remove build/
+#
+# config=  release (default), debug, sanitize, coverage, fuzz (with CC=clang)
+# werror=1 warnings are errors;  CC=clang;  build=DIR instead of build;  V=1 shows whole commands
 
 config ?= release
 build ?= build
 B := $(build)/$(config)
+FUZZ_SECONDS ?= 10
 
 # A folder may include only what stands on its line. This is the layer rule.
 INC_src           := -iquote src
@@ -15,6 +21,13 @@ INC_drivers       := -iquote src -iquote drivers
 INC_ui            := -iquote src -iquote ui
 INC_firmware-host := -iquote src -iquote drivers -iquote ui -iquote firmware-host
 INC_tests         := $(INC_firmware-host) -iquote tests
+
+# Of src, drivers may include these alone: a vocabulary, not the model.
+DRIVER_VOCABULARY := arena base edit input journal limits triangle vec
+
+# The core may ask the C library for these and for nothing else: no heap, no clock, no files, no
+# libm function whose last bit differs between systems.
+CORE_IMPORTS := memcpy memset memmove memcmp sqrtf must_fail
 
 CFLAGS_common   := -std=c17 -D_GNU_SOURCE -g -MMD -MP -ffp-contract=off -fno-strict-aliasing \
                    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes \
@@ -30,51 +43,115 @@ FLAGS           := $(CFLAGS_common) $(CFLAGS_$(config)) $(CFLAGS)
 sources = $(wildcard $(1)/*.c)
 objects = $(patsubst %.c,$(B)/%.o,$(1))
 
-CORE     := $(call sources,src)
-LIB      := $(CORE) $(filter-out firmware-host/main.c,$(foreach d,drivers ui firmware-host,$(call sources,$d)))
-TESTS    := $(patsubst %.c,$(B)/%,$(wildcard tests/test_*.c))
-BENCH    := $(patsubst %.c,$(B)/%,$(wildcard tests/bench_*.c))
-FUZZ     := $(patsubst %.c,$(B)/%,$(wildcard tests/fuzz_*.c))
-TOOLS    := $(B)/tests/hand
-ALL      := $(LIB) firmware-host/main.c $(call sources,tests)
+# The pure part: what turns a tape into a state hash. It needs a C library and no package at all.
+CORE := $(call sources,src)
+PURE := $(CORE) $(wildcard drivers/tape*.c) \
+        $(wildcard drivers/pen_descriptor*.c drivers/pen_report*.c drivers/pen_state*.c) \
+        $(filter-out ui/draw%,$(call sources,ui)) \
+        $(wildcard firmware-host/kiosk*.c firmware-host/must.c)
+
+MAIN  := firmware-host/main.c
+LIB   := $(filter-out $(MAIN),$(foreach d,src drivers ui firmware-host,$(call sources,$d)))
+TESTS := $(patsubst %.c,$(B)/%,$(wildcard tests/test_*.c))
+TEST_SCRIPTS := $(wildcard tests/test_*.sh)
+BENCH := $(patsubst %.c,$(B)/%,$(wildcard tests/bench_*.c))
+FUZZ  := $(patsubst %.c,$(B)/%,$(wildcard tests/fuzz_*.c))
+TOOLS := $(patsubst %.c,$(B)/%,$(wildcard tests/hand.c))
+ALL   := $(LIB) $(MAIN) $(call sources,tests)
+DATA  := $(wildcard tests/tapes/* tests/journals/*)
 
 PACKAGES := cairo pangocairo jansson hidapi-hidraw libusb-1.0 libgpiod libdrm gbm egl glesv2 sdl2 libpng libudev
-PACKAGE_CFLAGS = $(shell pkg-config --cflags $(PACKAGES))
-PACKAGE_LIBS   = $(shell pkg-config --libs $(PACKAGES))
+# Asked once, and only when something is to be compiled.
+PACKAGE_CFLAGS = $(eval PACKAGE_CFLAGS := $(shell pkg-config --cflags $(PACKAGES)))$(PACKAGE_CFLAGS)
+PACKAGE_LIBS   = $(eval PACKAGE_LIBS := $(shell pkg-config --libs $(PACKAGES)))$(PACKAGE_LIBS)
+CLANG_FORMAT  ?= clang-format
+
+# All processors, unless the caller said how many.
+JOBS = $(if $(filter -j%,$(MAKEFLAGS)),,-j$(shell nproc))
+SUBMAKE = +@$(MAKE) --no-print-directory $(JOBS)
+# A short line per file instead of the command, unless V=1.
+SHORT = $(if $(V),,@echo '  $(1)' '$(patsubst $(B)/%,%,$(or $(2),$@))';)
 
 all: $(B)/kitsuke
 
-$(B)/kitsuke: $(call objects,firmware-host/main.c) $(B)/kitsuke.a
-$(TESTS) $(BENCH) $(FUZZ): %: %.o $(B)/kitsuke.a
+$(B)/kitsuke: $(call objects,$(MAIN)) $(B)/kitsuke.a
+$(TESTS) $(BENCH) $(FUZZ) $(TOOLS): %: %.o $(B)/kitsuke.a
 $(FUZZ): LINK := -fsanitize=fuzzer
 
-$(B)/kitsuke $(TESTS) $(BENCH) $(FUZZ):
-	$(CC) $(FLAGS) $^ $(LINK) $(LDFLAGS) $(PACKAGE_LIBS) -lm -lpthread -o $@
+$(B)/kitsuke $(TESTS) $(BENCH) $(FUZZ) $(TOOLS):
+	$(call SHORT,link)$(CC) $(FLAGS) $^ $(LINK) $(LDFLAGS) -Wl,--as-needed $(PACKAGE_LIBS) -lm -lpthread -o $@
 
 $(B)/kitsuke.a: $(call objects,$(LIB))
 	@rm -f $@
-	$(AR) rcs $@ $^
+	$(call SHORT,pack)$(AR) rcs $@ $^
 
-# The core is compiled without a single package on its include path.
-$(call objects,$(CORE)): PACKAGE_CFLAGS :=
+# tape -> pen -> face -> session -> hash. Linked statically, so that a cross-built one runs under
+# qemu-user without a foreign system beside it.
+STATIC = $(if $(findstring sanitize,$(FLAGS)),,-static)
+$(B)/tests/replay_hash: $(call objects,tests/replay_hash.c $(PURE))
+	$(call SHORT,link)$(CC) $(FLAGS) $^ $(LDFLAGS) $(STATIC) -lm -o $@
+
+# The pure part is compiled without a single package on its include path.
+$(call objects,$(PURE) tests/replay_hash.c): PACKAGE_CFLAGS :=
 $(B)/%.o: %.c Makefile
 	@mkdir -p $(@D)
-	$(CC) $(INC_$(firstword $(subst /, ,$<))) $(FLAGS) $(PACKAGE_CFLAGS) -c $< -o $@
+	$(call SHORT,cc,$<)$(CC) $(INC_$(firstword $(subst /, ,$<))) $(FLAGS) $(PACKAGE_CFLAGS) -c $< -o $@
 
-# A test prints nothing when it passes; exit status 77 is a skip with its reason on stdout.
-$(B)/%.ok: $(B)/%
-	./$<
-	@touch $@
+run:
+	@firmware-host/setup run
+	$(SUBMAKE) all
+	$(B)/kitsuke $(ARGS)
 
-check: $(TESTS:=.ok)
-	@echo "all checks pass ($(config))"
+check:
+	@firmware-host/setup check
+	$(SUBMAKE) -k tests check-layers check-imports; status=$$?; \
+	  tests/check-summary.sh $(STAMPS) && exit $$status
+
+# tests/check-test.sh says what passing, failing and skipping mean.
+STAMPS = $(TESTS:=.ok) $(patsubst %,$(B)/%.ok,$(TEST_SCRIPTS))
+tests: $(STAMPS)
+$(TESTS:=.ok): %.ok: % $(DATA) tests/check-test.sh
+	@tests/check-test.sh $@ ./$<
+$(B)/tests/%.sh.ok: tests/%.sh $(B)/kitsuke $(DATA) tests/check-test.sh
+	@KITSUKE=$(B)/kitsuke tests/check-test.sh $@ $<
+$(STAMPS): | $(TOOLS)
+
+check-layers:
+	@tests/check-layers.sh $(DRIVER_VOCABULARY)
+
+# Sanitizers and coverage call their own run-time library, which says nothing about the core.
+check-imports: $(call objects,$(CORE))
+ifneq ($(filter $(config),debug release),)
+	@tests/check-imports.sh '$(CORE_IMPORTS)' $^
+endif
+
+# Everything that links, tests included, without running it.
+programs: $(TESTS) $(BENCH) $(TOOLS)
+
+bench: $(BENCH) $(TOOLS)
+	@for bench in $(BENCH); do $$bench || exit; done
+
+fuzz:
+	$(SUBMAKE) config=fuzz CC=clang fuzzers
+	@tests/check-fuzz.sh $(build)/fuzz $(FUZZ_SECONDS)
+fuzzers: $(FUZZ)
+
+hash-matrix:
+	@MAKE='$(MAKE)' JOBS='$(JOBS)' tests/check-hash.sh $(build)/hash
 
 format:
-	clang-format -i $(wildcard */*.[ch])
+	$(CLANG_FORMAT) -i $(wildcard */*.[ch])
+
+format-check:
+	@$(CLANG_FORMAT) --dry-run -Werror $(wildcard */*.[ch])
+
+help:
+	@sed -n 's/^# \{0,1\}//p;/^$$/q' Makefile
 
 clean:
-	rm -rf build
+	rm -rf $(build)
 
-.PHONY: all check format clean
+.PHONY: all run check tests programs check-layers check-imports bench fuzz fuzzers hash-matrix format \
+        format-check help clean
 .SECONDARY:
 -include $(patsubst %.c,$(B)/%.d,$(ALL))
