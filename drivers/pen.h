@@ -84,7 +84,8 @@ void pen_read(struct pen *pen, const struct frame_reports *reports, int64_t now_
 extern const uint8_t buttons_descriptor[];
 extern const int buttons_descriptor_size;
 
-/* The descriptor of the desktop's mouse as a pen (absolute, 16 bit, tip, in range, pressure). */
+/* The descriptor of the desktop's mouse as a pen. Seven bytes, little endian, no report id: flags
+ * (bit 0 tip, 1 barrel, 2 in range), x and y (0..32767 over the window), pressure (0..4095). */
 extern const uint8_t mouse_descriptor[];
 extern const int mouse_descriptor_size;
 

@@ -1,0 +1,271 @@
+/* Real report descriptors, every field against what four independent decoders say. */
+#include "pen.h"
+#include "table.h"
+#include "test.h"
+
+#define DATA "../shared/data/hid/"
+
+static struct table expected, descriptors, nonpen;
+
+/* The descriptor with this hash as bytes; 0 when it is not in the table. */
+static int descriptor_bytes(const struct table *table, int row, uint8_t bytes[DESCRIPTOR_BYTES_MAX])
+{
+	return table_hex(table_cell(table, row, "hex"), bytes, DESCRIPTOR_BYTES_MAX);
+}
+
+static int expected_int(int row, const char *column, int missing)
+{
+	const char *cell = table_cell(&expected, row, column);
+	return *cell ? (int)strtol(cell, NULL, 0) : missing;
+}
+
+/* A field's first bit, as the table counts: without the id byte; -1 where there is none. */
+static int bit_of(const struct pen_layout *layout, struct pen_field field)
+{
+	return field.size ? field.bit - (layout->report_id ? 8 : 0) : -1;
+}
+
+#define SAME(row, column, missing, value)                                                          \
+	do {                                                                                       \
+		int want = expected_int(row, column, missing), have = (value);                     \
+		if (want != have) {                                                                \
+			fprintf(stderr, "%s (id %s): %s is %d, expected %d\n",                     \
+				table_cell(&expected, row, "name"),                                \
+				table_cell(&expected, row, "report_id"), column, have, want);      \
+			test_failures++;                                                           \
+		}                                                                                  \
+	} while (0)
+
+static void compare_axes(int row, const struct pen_layout *l)
+{
+	SAME(row, "report_bits", 0, l->report_bits - (l->report_id ? 8 : 0));
+	SAME(row, "x_bit", -1, bit_of(l, l->x));
+	SAME(row, "x_size", 0, l->x.size);
+	SAME(row, "min_x", 0, l->x.minimum);
+	SAME(row, "max_x", 0, l->x.maximum);
+	SAME(row, "y_bit", -1, bit_of(l, l->y));
+	SAME(row, "y_size", 0, l->y.size);
+	SAME(row, "min_y", 0, l->y.minimum);
+	SAME(row, "max_y", 0, l->y.maximum);
+	SAME(row, "pressure_bit", -1, bit_of(l, l->pressure));
+	SAME(row, "pressure_size", 0, l->pressure.size);
+	SAME(row, "min_pressure", 0, l->pressure.minimum);
+	SAME(row, "max_pressure", 0, l->pressure.maximum);
+	SAME(row, "tilt_x_bit", -1, bit_of(l, l->tilt_x));
+	SAME(row, "tilt_x_size", 0, l->tilt_x.size);
+	SAME(row, "tilt_min", 0, l->tilt_x.minimum);
+	SAME(row, "tilt_max", 0, l->tilt_x.maximum);
+	SAME(row, "twist_max", 0, l->twist.maximum);
+}
+
+static void compare_switches(int row, const struct pen_layout *l)
+{
+	if (l->absolute_mouse) { /* the table leaves the buttons of a mouse out */
+		CHECK(l->tip.size == 1);
+		return;
+	}
+	SAME(row, "tip_bit", -1, bit_of(l, l->tip));
+	SAME(row, "inrange_bit", -1, bit_of(l, l->in_range));
+	SAME(row, "invert_bit", -1, bit_of(l, l->invert));
+	SAME(row, "eraser_bit", -1, bit_of(l, l->eraser));
+	SAME(row, "barrel_bit", -1, bit_of(l, l->barrel));
+	SAME(row, "barrel2_bit", -1, bit_of(l, l->barrel_2));
+	if (expected_int(row, "serial_bits", 0) <= 32)
+		SAME(row, "serial_bits", 0, l->serial.size);
+}
+
+static int sizes_stated, sizes_doubted;
+
+/* The table has what the unit and the physical range say, lies included. */
+static void compare_size(int row, const struct pen_layout *l)
+{
+	int unit = expected_int(row, "unit", 0);
+	float width = strtof(table_cell(&expected, row, "width_mm"), NULL);
+	float height = strtof(table_cell(&expected, row, "height_mm"), NULL);
+	if (!l->width_mm) {
+		CHECK(!l->height_mm);
+		sizes_doubted++;
+		/* A size in cm or inches is doubted only where it cannot be true. */
+		float finest = (float)l->x.maximum / width;
+		CHECK((unit != 0x11 && unit != 0x13) || width < 50.0f || height < 30.0f ||
+		      width > 1500.0f || finest > 400.0f);
+		return;
+	}
+	sizes_stated++;
+	CHECK(unit == 0x11 || unit == 0x13);
+	CHECK_NEAR(l->width_mm, width, 0.006);
+	CHECK_NEAR(l->height_mm, height, 0.006);
+}
+
+static void compare_row(int row)
+{
+	static uint8_t bytes[DESCRIPTOR_BYTES_MAX];
+	struct pen_layout layout[PEN_REPORTS_MAX];
+	char reason[160];
+	int at = table_find(&descriptors, "sha1", table_cell(&expected, row, "descriptor_sha1"));
+	CHECK(at >= 0);
+	int size = at < 0 ? 0 : descriptor_bytes(&descriptors, at, bytes);
+	int count = pen_descriptor_read(bytes, size, layout, reason);
+	int id = expected_int(row, "report_id", 0);
+	for (int i = 0; i < count; i++) {
+		if (layout[i].report_id != id)
+			continue;
+		bool mouse = !strcmp(table_cell(&expected, row, "kind"), "absmouse");
+		CHECK(layout[i].absolute_mouse == mouse);
+		compare_axes(row, &layout[i]);
+		compare_switches(row, &layout[i]);
+		compare_size(row, &layout[i]);
+		return;
+	}
+	fprintf(stderr, "%s: no pen in report %d: %s\n", table_cell(&expected, row, "name"), id,
+		reason);
+	test_failures++;
+}
+
+/* Every layout found must stand in the table: nothing is taken for a pen that is none. */
+static void check_no_more_than_expected(int at)
+{
+	static uint8_t bytes[DESCRIPTOR_BYTES_MAX];
+	struct pen_layout layout[PEN_REPORTS_MAX];
+	char reason[160];
+	int count = pen_descriptor_read(bytes, descriptor_bytes(&descriptors, at, bytes), layout,
+					reason);
+	for (int i = 0; i < count; i++) {
+		bool known = false;
+		for (int row = 0; row < expected.rows; row++)
+			known |= expected_int(row, "report_id", 0) == layout[i].report_id &&
+				 !strcmp(table_cell(&expected, row, "descriptor_sha1"),
+					 table_cell(&descriptors, at, "sha1"));
+		if (!known) {
+			fprintf(stderr, "%s: report %d is no pen\n",
+				table_cell(&descriptors, at, "sha1"), layout[i].report_id);
+			test_failures++;
+		}
+	}
+}
+
+static void check_nonpen(int row)
+{
+	static uint8_t bytes[DESCRIPTOR_BYTES_MAX];
+	struct pen_layout layout[PEN_REPORTS_MAX];
+	char reason[160] = "";
+	int size = descriptor_bytes(&nonpen, row, bytes);
+	int count = pen_descriptor_read(bytes, size, layout, reason);
+	if (count || !*reason) {
+		fprintf(stderr, "%s: report %d taken for a pen\n", table_cell(&nonpen, row, "file"),
+			layout[0].report_id);
+		test_failures++;
+	}
+}
+
+/* --- what no shipped tablet has -------------------------------------------------------------- */
+
+static int read_count(const uint8_t *bytes, int size, char reason[160])
+{
+	struct pen_layout layout[PEN_REPORTS_MAX];
+	return pen_descriptor_read(bytes, size, layout, reason);
+}
+
+static void check_own_descriptors(void)
+{
+	struct pen_layout layout[PEN_REPORTS_MAX];
+	char reason[160];
+	CHECK(pen_descriptor_read(mouse_descriptor, mouse_descriptor_size, layout, reason) == 1);
+	CHECK(layout[0].report_id == 0 && layout[0].report_bits == 56);
+	CHECK(layout[0].tip.bit == 0 && layout[0].barrel.bit == 1 && layout[0].in_range.bit == 2);
+	CHECK(layout[0].x.bit == 8 && layout[0].y.bit == 24 && layout[0].pressure.bit == 40);
+	CHECK(layout[0].x.maximum == 32767 && layout[0].pressure.maximum == 4095);
+	CHECK(read_count(buttons_descriptor, buttons_descriptor_size, reason) == 0);
+}
+
+static void check_hostile(void)
+{
+	static const struct {
+		const char *hex, *reason;
+	} cases[] = {
+		{"", "1 to 4096 bytes"},
+		{"a4a4a4a4a4", "nested Push"},
+		{"b4", "Pop without Push"},
+		{"c0", "End Collection"},
+		{"a101", "not closed"},
+		{"8500", "report id"},
+		{"860001", "report id"},
+		{"760101", "256 bits"},
+		{"960130", "12288 fields"},
+		{"1900 2affff", "12288 usages"},
+		{"1905 2901", "ends before it begins"},
+		{"a900", "delimiters"},
+		{"fe", "long item"},
+		{"fe0510 00", "long item"},
+		{"27ffff", "cut off"},
+		{"050d0902a101 7520960030 8102 8102 c0", "16 KiB"},
+	};
+	for (int i = 0; i < COUNT_OF(cases); i++) {
+		uint8_t bytes[DESCRIPTOR_BYTES_MAX];
+		char reason[160] = "";
+		int size = table_hex(cases[i].hex, bytes, sizeof bytes);
+		CHECK(read_count(bytes, size, reason) == 0);
+		if (!strstr(reason, cases[i].reason)) {
+			fprintf(stderr, "%s: \"%s\" does not say \"%s\"\n", cases[i].hex, reason,
+				cases[i].reason);
+			test_failures++;
+		}
+	}
+	static uint8_t deep[2 * 40];
+	char reason[160];
+	for (int i = 0; i < COUNT_OF(deep); i++)
+		deep[i] = i % 2 ? 1 : 0xa1;
+	CHECK(read_count(deep, sizeof deep, reason) == 0 && strstr(reason, "32 deep"));
+	CHECK(read_count(deep, DESCRIPTOR_BYTES_MAX + 1, reason) == 0);
+}
+
+/* A long item, a delimited set of usages, Push and Pop, and a maximum that looks negative. */
+static void check_rare_items(void)
+{
+	static const char *hex = "050d 0902 a101 0920 a100 fe02aa1122"
+				 "0942 a901 0932 0934 a900 1500 2501 7501 9502 8102 9506 8103"
+				 "a4 0501 7510 9501 26409c 0930 8102 26a861 0931 8102 b4"
+				 "9508 8103 c0 c0";
+	uint8_t bytes[DESCRIPTOR_BYTES_MAX];
+	struct pen_layout layout[PEN_REPORTS_MAX];
+	char reason[160];
+	int size = table_hex(hex, bytes, sizeof bytes);
+	CHECK(pen_descriptor_read(bytes, size, layout, reason) == 1);
+	CHECK(layout[0].x.maximum == 40000 && layout[0].y.maximum == 25000);
+	CHECK(layout[0].in_range.bit == 1);
+	CHECK(layout[0].report_bits == 48); /* after Pop eight fields are eight bits again */
+}
+
+/* Every prefix of a real descriptor is read or refused, never trusted half. */
+static void check_truncated(int at)
+{
+	static uint8_t bytes[DESCRIPTOR_BYTES_MAX];
+	char reason[160];
+	int size = descriptor_bytes(&descriptors, at, bytes);
+	for (int i = 1; i < size; i++)
+		CHECK(read_count(bytes, i, reason) >= 0);
+}
+
+int main(void)
+{
+	check_own_descriptors();
+	check_hostile();
+	check_rare_items();
+	if (!table_read(&expected, DATA "expected.csv", ',') ||
+	    !table_read(&descriptors, DATA "descriptors.tsv", '\t') ||
+	    !table_read(&nonpen, DATA "descriptors_nonpen.tsv", '\t')) {
+		printf("skip: no recorded descriptors at " DATA "\n");
+		return test_failures ? EXIT_FAILURE : 77;
+	}
+	CHECK(expected.rows > 300 && nonpen.rows > 200);
+	for (int row = 0; row < expected.rows; row++)
+		compare_row(row);
+	for (int row = 0; row < descriptors.rows; row++)
+		check_no_more_than_expected(row);
+	for (int row = 0; row < nonpen.rows; row++)
+		check_nonpen(row);
+	for (int row = 0; row < descriptors.rows; row += 7)
+		check_truncated(row);
+	CHECK(sizes_stated > 250 && sizes_doubted > 20);
+	return test_end();
+}
