@@ -91,11 +91,28 @@ static const char *unmark(struct session *session, const struct edit *edit)
 	return "there is no mark with that number";
 }
 
+/* Is there a number on both sides? */
+static bool marks_pair(const struct marks *marks)
+{
+	for (int a = 0; a < MARKS_MAX; a++)
+		for (int b = 0; marks->cloth[a].used && b < MARKS_MAX; b++)
+			if (marks->body[b].used && marks->body[b].number == marks->cloth[a].number)
+				return true;
+	return false;
+}
+
+/* A pattern that can't be meshed leaves everything as it was, the worn garment included. */
 static const char *wrap_garment(struct session *session)
 {
+	if (!marks_pair(&session->document.marks))
+		return "draw a line on the cloth and its partner on the body first";
+	session_release(session);
 	undo_keep(session);
 	memset(session->document.pin, 0, sizeof session->document.pin);
-	return session_wrap(session);
+	const char *fault = session_wrap(session);
+	if (fault)
+		undo_cancel(session);
+	return fault;
 }
 
 /* The worn triangle under a point of a piece; -1 with the reason. */
@@ -199,9 +216,8 @@ static const char *relax(struct session *session, const struct edit *edit)
 	return NULL;
 }
 
-const char *session_edit_dress(struct session *session, const struct edit *edit)
+static const char *apply(struct session *session, const struct edit *edit)
 {
-	session_wake(session);
 	switch (edit->kind) {
 	case EDIT_MARK_CLOTH:
 		return mark_cloth(session, edit);
@@ -228,4 +244,12 @@ const char *session_edit_dress(struct session *session, const struct edit *edit)
 		MUST(!"an edit around the body");
 		return NULL;
 	}
+}
+
+const char *session_edit_dress(struct session *session, const struct edit *edit)
+{
+	const char *refusal = apply(session, edit);
+	if (!refusal)
+		session_wake(session);
+	return refusal;
 }

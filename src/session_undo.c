@@ -129,6 +129,13 @@ bool undo_back(struct session *session)
 	return go(session, -1);
 }
 
+void undo_cancel(struct session *session)
+{
+	go(session, -1);
+	session->undo->newest = session->undo->now;
+	count(session);
+}
+
 bool undo_forward(struct session *session)
 {
 	return go(session, 1);

@@ -1,0 +1,77 @@
+#include "kiosk.h"
+
+enum { JOURNAL_FRAME_MAX = (FRAME_EDITS_MAX + 4) * JOURNAL_LINE_MAX };
+
+void kiosk_init(struct kiosk *kiosk, void *memory, int width_px, int height_px)
+{
+	memset(kiosk, 0, sizeof *kiosk);
+	arena_init(&kiosk->arena, memory, KIOSK_MEMORY_BYTES);
+	kiosk->journal = ARENA_ARRAY(&kiosk->arena, char, JOURNAL_FRAME_MAX);
+	pen_init(&kiosk->pen, width_px, height_px);
+	session_init(&kiosk->session, &kiosk->arena);
+	ui_init(&kiosk->ui, width_px, height_px);
+	arena_seal(&kiosk->arena);
+}
+
+static void journal_append(struct kiosk *kiosk, const struct edit *edit)
+{
+	int size = journal_write(edit, kiosk->journal_line);
+	MUST(kiosk->journal_size + size <= JOURNAL_FRAME_MAX);
+	memcpy(kiosk->journal + kiosk->journal_size, kiosk->journal_line, (size_t)size);
+	kiosk->journal_size += size;
+}
+
+static void journal_steps(struct kiosk *kiosk)
+{
+	if (kiosk->steps == 0)
+		return;
+	struct edit step = {.kind = EDIT_STEP, .i = {kiosk->steps}};
+	kiosk->steps = 0;
+	journal_append(kiosk, &step);
+}
+
+void kiosk_body_named(struct kiosk *kiosk, const char *name)
+{
+	struct edit body = {.kind = EDIT_BODY};
+	size_t size = strlen(name);
+	memcpy(body.name, name, size < NAME_BYTES_MAX ? size : NAME_BYTES_MAX - 1);
+	journal_append(kiosk, &body);
+	struct edit budget = {.kind = EDIT_BUDGET, .i = {(int)kiosk->session.budget_units}};
+	journal_append(kiosk, &budget);
+}
+
+/* Refused edits are written too: refusing is part of what happened. */
+static void apply_edits(struct kiosk *kiosk)
+{
+	for (int i = 0; i < kiosk->edits.count; i++) {
+		journal_steps(kiosk);
+		journal_append(kiosk, &kiosk->edits.item[i]);
+		session_apply(&kiosk->session, &kiosk->edits.item[i]);
+	}
+}
+
+void kiosk_frame(struct kiosk *kiosk, const struct frame_reports *reports, unsigned unplugged)
+{
+	int64_t now_us = (int64_t)(kiosk->frame + 1) * 1000000 / FRAME_RATE_HZ;
+	kiosk->input = (struct frame_input){0};
+	kiosk->edits.count = 0;
+	if (kiosk->frame > 0)
+		kiosk->journal_size = 0;
+
+	pen_read(&kiosk->pen, reports, now_us, &kiosk->input); /* bytes -> samples */
+	for (int device = 0; device < PEN_DEVICES_MAX; device++)
+		if (unplugged >> device & 1)
+			pen_unplugged(&kiosk->pen, device, &kiosk->input);
+	ui_update(&kiosk->ui, &kiosk->input, &kiosk->session, &kiosk->edits); /* samples -> edits */
+	apply_edits(kiosk);               /* edits -> document */
+	session_advance(&kiosk->session); /* jobs, then solver */
+
+	kiosk->steps++;
+	kiosk->frame++;
+}
+
+void kiosk_finish(struct kiosk *kiosk)
+{
+	kiosk->journal_size = 0;
+	journal_steps(kiosk);
+}
