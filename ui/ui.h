@@ -36,15 +36,16 @@ enum target {
 	TARGET_UNDO,
 	TARGET_REDO,
 	TARGET_LANGUAGE,
-	TARGET_CLEAR,
+	TARGET_HAND,  /* the tools change sides */
+	TARGET_CLEAR, /* held for a second */
 	TARGET_VIEW_FRONT,
 	TARGET_VIEW_SIDE,
 	TARGET_VIEW_BACK,
 	TARGET_COPY,
 	TARGET_TURN_OVER,
 	TARGET_MIRROR,
-	TARGET_DELETE, /* step 1: the selected piece */
-	TARGET_SWAP,   /* step 2: the last seam */
+	TARGET_DELETE, /* step 1: the selected piece; step 2: the selected seam */
+	TARGET_SWAP,   /* step 2: the selected seam */
 	TARGET_LASER,
 	TARGET_ERASE, /* step 3 */
 	TARGET_WRAP,
@@ -57,19 +58,33 @@ enum target {
 
 struct layout {
 	int width, height;
+	enum step step;
+	bool left_handed;
 	struct rect bar, left, right, bottom, hint;
+	struct rect meter;                /* strain, steps 4 and 5 */
 	struct rect target[TARGET_COUNT]; /* w == 0: not on the screen in this step */
+	float mm_per_px;                  /* of the real screen: 476 mm wide unless told */
 };
 
-/* Integer layout for a screen size and a step, after the look's proportions. */
-void layout_make(struct layout *layout, int width, int height, enum step step);
+/* Integer layout for a screen size (from 320 x 180 on) and a step, after the look's proportions.
+ * For a left hand view buttons, swatches and tools change sides; the twins never do. */
+void layout_make(struct layout *layout, int width, int height, enum step step, bool left_handed);
 enum target layout_hit(const struct layout *layout, struct v2 position_px);
+
+/* A length of the look's drawing (1920 x 1080) on this screen, rounded. */
+int layout_px(const struct layout *layout, int px_at_1080);
+
+static inline bool rect_holds(struct rect rect, struct v2 position_px)
+{
+	return position_px.x >= (float)rect.x && position_px.x < (float)(rect.x + rect.w) &&
+	       position_px.y >= (float)rect.y && position_px.y < (float)(rect.y + rect.h);
+}
 
 /* The camera of the left pane: a virtual trackball about a point (S5; Hultquist). Orthographic
  * enough to read, perspective enough to look real. Arithmetic of src only. */
 struct view {
 	struct rect pane;
-	struct m3 turn;     /* world to camera axes */
+	struct m3 turn;     /* world to camera axes: right, up, towards the viewer */
 	struct v3 centre_m; /* looked at */
 	float distance_m;
 	float focal;               /* pane heights */
@@ -78,19 +93,34 @@ struct view {
 	struct rect sheet_pane;
 };
 
+/* The whole of a 1.7 m figure from the front; a sheet 1.76 m wide about its origin. */
+void view_init(struct view *view, const struct layout *layout);
+
+/* Looks from azimuth_rad round the vertical axis: 0 the front, pi/2 the wearer's left. */
+void view_look(struct view *view, float azimuth_rad);
+
+/* Turns the figure as if the pen had rolled a ball from one position to another. */
+void view_trackball(struct view *view, struct v2 from_px, struct v2 to_px);
+
+/* The eye and the unit direction through a screen position. */
 void view_ray(const struct view *view, struct v2 position_px, struct v3 *origin_m,
 	      struct v3 *direction);
 /* Screen position; false when behind the camera. depth_m: along the view axis. */
 bool view_project(const struct view *view, struct v3 point_m, struct v2 *position_px,
 		  float *depth_m);
+struct v3 view_eye(const struct view *view);
 struct v2 view_sheet_mm(const struct view *view, struct v2 position_px);
 struct v2 view_sheet_px(const struct view *view, struct v2 sheet_mm);
 
+/* Widens the sheet (never narrows it) until the rectangle lies within the pane. */
+void view_sheet_show(struct view *view, struct v2 low_mm, struct v2 high_mm);
+
 enum gesture {
 	GESTURE_NONE,
-	GESTURE_TRACKBALL,
+	GESTURE_WAIT,   /* touching a pane; too early to say what it is */
 	GESTURE_TARGET, /* pressed on a target; acts on release inside */
-	GESTURE_PIECE,  /* drawing an outline */
+	GESTURE_TRACKBALL,
+	GESTURE_PIECE, /* drawing an outline */
 	GESTURE_OVERSKETCH,
 	GESTURE_MOVE, /* moving a piece */
 	GESTURE_SEW,
@@ -98,7 +128,9 @@ enum gesture {
 	GESTURE_MARK_BODY,
 	GESTURE_MARK_WORN,
 	GESTURE_DRAG, /* surface drag of the garment */
+	GESTURE_ERASE,
 	GESTURE_PAN,
+	GESTURE_IDLE, /* touching, and nothing comes of it */
 };
 
 struct ui {
@@ -106,27 +138,56 @@ struct ui {
 	struct view view;
 	enum step step;
 	enum language language;
-	enum gesture gesture;
+	bool left_handed;
 	bool laser, erase;
-	bool pin_mode;   /* the PIN twin toggles, the real button holds */
+	bool pin_mode; /* pin_toggled by the twin, or the real button is held */
+	bool pin_toggled;
 	int piece, seam; /* selected; -1: none */
-	enum target pressed;
-	int stroke_count; /* of the gesture in progress */
-	struct v2 stroke_px[STROKE_SAMPLES_MAX];
+	int swatch;      /* of the next piece */
+
+	/* The pen, and the contact in progress: raw samples, thinned never. */
 	struct v2 pen_px; /* last position */
 	enum pen_state pen_state;
 	float pen_pressure;
-	struct v3 grab_m; /* depth plane of a drag */
-	int hover_piece, hover_edge, hover_triangle;
-	float hover_fraction;
-	struct v2 move_from_mm; /* GESTURE_MOVE */
+	bool eraser; /* the contact is by the pen's other end, or ERASE is on */
+	enum gesture gesture;
+	enum target pressed;
+	int64_t press_us, last_us;
+	bool moved; /* farther than a tap */
+	int stroke_count;
+	struct v2 stroke_px[STROKE_SAMPLES_MAX];
+	struct v2 smooth_px[STROKE_SAMPLES_MAX]; /* room to work in; valid within one update */
+	struct v2 start_px;                      /* mean of the first samples */
+	struct v2 steady_px;                     /* mean of the last few samples */
+	int hold_frames;                         /* how long a held target has been held */
+
+	/* What the gesture in progress is about. */
+	struct v2 move_mm; /* GESTURE_MOVE: shift of the piece so far */
 	struct {
-		int piece, edge;
-	} sew_from;
+		int piece, edge; /* -1: none */
+	} sew_from, sew_to;
+	struct v3 grab_m; /* depth plane of a drag */
+	bool grabbed;     /* EDIT_GRAB was sent */
+	bool grab_on_body;
+
+	/* What lies under the pen: for highlights only. -1: nothing. */
+	enum target hover_target;
+	int hover_piece, hover_edge, hover_seam;
+	int hover_triangle; /* garment.triangle under the pen, in front of the body */
+	bool hover_body;
+	struct v3 hover_m; /* the point on cloth or body */
+
+	/* What was there last frame, so that new things can be selected. */
+	uint32_t pieces_seen;
+	uint64_t seams_seen;
+	bool select_new;
+	bool was_worn, had_pair;
+
 	int frame;               /* for motion that explains; counts ui_update calls */
 	int pulse[TARGET_COUNT]; /* frame at which a target became useful; 0: not */
 	uint8_t buttons_held;
-	const char *notice; /* a line for the visitor, from a static table; NULL: the step's hint */
+	bool relax_held; /* as last told to the session */
+	int notice;      /* enum text: a line for the visitor; 0: the step's hint */
 	int notice_frame;
 };
 
@@ -135,5 +196,11 @@ void ui_init(struct ui *ui, int width, int height);
 /* One frame's input to edits. Pure: reads the session, changes only ui, adds to the list. */
 void ui_update(struct ui *ui, const struct frame_input *input, const struct session *session,
 	       struct edit_list *edits);
+
+/* Would pressing this target do something now? Dim ones are drawn so. */
+bool ui_useful(const struct ui *ui, const struct session *session, enum target target);
+
+/* Goes to a step by itself (the attract loop, tests). */
+void ui_step(struct ui *ui, enum step step);
 
 #endif
