@@ -38,9 +38,10 @@ enum {
 
 /* What collections say about the fields within. */
 enum role {
+	ROLE_OUTSIDE, /* no application collection is open: what is in there belongs to nothing */
 	ROLE_NONE,
 	ROLE_MOUSE, /* Generic Desktop: Mouse, Pointer */
-	ROLE_PEN,   /* Digitizer, Pen, Stylus */
+	ROLE_PEN,   /* Digitizer or Pen as an application, a Stylus within any but touch */
 	ROLE_TOUCH, /* Touch Screen, Touch Pad, Finger, Configuration: never a pen */
 };
 
@@ -55,6 +56,7 @@ struct globals {
 	int32_t logical_minimum, logical_maximum;
 	uint32_t logical_maximum_raw;
 	int32_t physical_minimum, physical_maximum;
+	uint32_t physical_maximum_raw;
 	uint32_t unit;
 	int unit_exponent;
 	uint32_t report_size, report_count;
@@ -179,6 +181,7 @@ static bool global_item(struct reader *r, const struct item *item)
 		return true;
 	case 0x4:
 		g->physical_maximum = item->signed_value;
+		g->physical_maximum_raw = item->value;
 		return true;
 	case 0x5: /* a signed nibble; some devices write it as a signed byte */
 		g->unit_exponent = (int)(item->value & 15);
@@ -272,7 +275,7 @@ static uint32_t usage_at(const struct reader *r, int index)
 
 /* --- collections ------------------------------------------------------------------------------ */
 
-static enum role usage_role(uint32_t usage)
+static enum role application_role(uint32_t usage)
 {
 	switch (usage) {
 	case USAGE(PAGE_DESKTOP, 0x01):
@@ -280,27 +283,38 @@ static enum role usage_role(uint32_t usage)
 		return ROLE_MOUSE;
 	case USAGE(PAGE_DIGITIZER, 0x01):
 	case USAGE(PAGE_DIGITIZER, 0x02):
-	case USAGE(PAGE_DIGITIZER, 0x20):
 	case USAGE(PAGE_WACOM, 0x01):
 	case USAGE(PAGE_WACOM, 0x02):
-	case USAGE(PAGE_WACOM, 0x20):
 		return ROLE_PEN;
 	case USAGE(PAGE_DIGITIZER, 0x04):
 	case USAGE(PAGE_DIGITIZER, 0x05):
 	case USAGE(PAGE_DIGITIZER, 0x0e):
-	case USAGE(PAGE_DIGITIZER, 0x22):
 		return ROLE_TOUCH;
 	}
 	return ROLE_NONE;
 }
 
-static bool collection_open(struct reader *r)
+/* The innermost application counts, as it does for the kernel; what lies in it may say more. */
+static enum role collection_role(enum role outer, uint32_t type, uint32_t usage)
+{
+	enum { COLLECTION_APPLICATION = 1 };
+	if (type == COLLECTION_APPLICATION)
+		return application_role(usage);
+	if (outer == ROLE_OUTSIDE || outer == ROLE_TOUCH)
+		return outer;
+	if (usage == USAGE(PAGE_DIGITIZER, 0x22))
+		return ROLE_TOUCH;
+	if (usage == USAGE(PAGE_DIGITIZER, 0x20) || usage == USAGE(PAGE_WACOM, 0x20))
+		return ROLE_PEN;
+	return outer;
+}
+
+static bool collection_open(struct reader *r, uint32_t type)
 {
 	if (r->depth == COLLECTION_DEPTH_MAX)
 		return refuse(r, "collections more than 32 deep");
-	enum role role = usage_role(usage_at(r, 0));
 	enum role outer = r->role[r->depth];
-	r->role[++r->depth] = role > outer ? role : outer;
+	r->role[++r->depth] = collection_role(outer, type, usage_at(r, 0));
 	return true;
 }
 
@@ -326,19 +340,25 @@ static struct candidate *candidate_at(struct reader *r, int report_id)
 	return candidate;
 }
 
+/* A maximum below a minimum that is not negative was meant unsigned. */
+static int64_t maximum_meant(int32_t minimum, int32_t maximum, uint32_t raw)
+{
+	return minimum >= 0 && maximum < minimum ? (int64_t)raw : maximum;
+}
+
 static struct pen_field field_here(const struct reader *r, uint32_t bit)
 {
 	const struct globals *g = &r->global;
-	bool is_signed = g->logical_minimum < 0;
-	int64_t maximum = g->logical_maximum;
-	if (!is_signed && maximum < g->logical_minimum)
-		maximum = g->logical_maximum_raw;
+	int64_t maximum = maximum_meant(g->logical_minimum, g->logical_maximum,
+					g->logical_maximum_raw);
 	return (struct pen_field){
 		.bit = (int)bit,
 		.size = (int)g->report_size,
-		.is_signed = is_signed,
-		.minimum = g->logical_minimum,
-		.maximum = maximum > INT32_MAX ? INT32_MAX : (int)maximum,
+		.is_signed =
+			g->logical_minimum<0, .minimum = g->logical_minimum, .maximum = maximum>
+					INT32_MAX
+				? INT32_MAX
+				: (int)maximum,
 	};
 }
 
@@ -352,12 +372,18 @@ static float power_of_ten(int exponent)
 	return power;
 }
 
+static float physical_range(const struct globals *g)
+{
+	int64_t maximum = maximum_meant(g->physical_minimum, g->physical_maximum,
+					g->physical_maximum_raw);
+	return (float)(maximum - g->physical_minimum) * power_of_ten(g->unit_exponent);
+}
+
 /* The physical extent of the current field in mm; 0 when the unit is no length. */
 static float extent_mm(const struct globals *g)
 {
 	float mm = g->unit == 0x11 ? 10.0f : g->unit == 0x13 ? 25.4f : 0.0f;
-	float extent = (float)((int64_t)g->physical_maximum - g->physical_minimum);
-	return extent * power_of_ten(g->unit_exponent) * mm;
+	return physical_range(g) * mm;
 }
 
 /* Radians of one logical unit: from the physical range when that is an angle of a pen, else the
@@ -367,8 +393,7 @@ static float tilt_unit(const struct globals *g, const struct pen_field *field)
 	float logical = (float)((int64_t)field->maximum - field->minimum);
 	float degree = PI_F / 180.0f;
 	float unit = g->unit == 0x14 ? degree : g->unit == 0x12 ? 1.0f : 0.0f;
-	float range = (float)((int64_t)g->physical_maximum - g->physical_minimum) *
-		      power_of_ten(g->unit_exponent) * unit;
+	float range = physical_range(g) * unit;
 	if (logical > 0.0f && range > 30.0f * degree && range < 181.0f * degree)
 		return range / logical;
 	return field->maximum > 1000 ? degree / 100.0f : degree;
@@ -394,7 +419,7 @@ static void field_desktop(struct candidate *c, uint32_t id, struct pen_field fie
 }
 
 static void field_digitizer(struct candidate *c, uint32_t id, struct pen_field field,
-			    const struct globals *g)
+			    const struct globals *g, bool wacom)
 {
 	struct pen_layout *layout = &c->layout;
 	switch (id) {
@@ -403,6 +428,10 @@ static void field_digitizer(struct candidate *c, uint32_t id, struct pen_field f
 		break;
 	case 0x32:
 		field_once(&layout->in_range, field);
+		break;
+	case 0x36: /* Wacom's Sense stays on for as long as the pen is noticed at all */
+		if (wacom)
+			layout->in_range = field;
 		break;
 	case 0x3c:
 		field_once(&layout->invert, field);
@@ -458,7 +487,7 @@ static void field_add(struct reader *r, uint32_t usage, uint32_t bit, bool relat
 		c->relative |= relative && (id == 0x30 || id == 0x31);
 		field_desktop(c, id & 0xff, field, &r->global);
 	} else if (page == PAGE_DIGITIZER || page == PAGE_WACOM) {
-		field_digitizer(c, id, field, &r->global);
+		field_digitizer(c, id, field, &r->global, page == PAGE_WACOM);
 	} else if (page == PAGE_BUTTON && id == 1) {
 		field_once(&c->button, field);
 	} else if (page == PAGE_BUTTON && id == 2) {
@@ -475,7 +504,7 @@ static bool input_item(struct reader *r, uint32_t flags)
 		return refuse(r, "a report of more than 16 KiB");
 	*bits += g->report_size * g->report_count;
 	bool constant = flags & 1, variable = flags & 2, relative = flags & 4;
-	if (constant || !variable || !r->usage_count || r->role[r->depth] == ROLE_NONE)
+	if (constant || !variable || !r->usage_count || r->role[r->depth] < ROLE_MOUSE)
 		return true;
 	/* Only as many fields as there are usages have a meaning of their own. */
 	int count = int_min((int)g->report_count, r->usage_total);
@@ -490,7 +519,7 @@ static bool main_item(struct reader *r, const struct item *item)
 	if (item->tag == 0x8)
 		sound = input_item(r, item->value);
 	else if (item->tag == 0xa)
-		sound = collection_open(r);
+		sound = collection_open(r, item->value);
 	else if (item->tag == 0xc)
 		sound = collection_close(r);
 	locals_clear(r);
@@ -499,14 +528,14 @@ static bool main_item(struct reader *r, const struct item *item)
 
 /* --- candidates to layouts -------------------------------------------------------------------- */
 
-/* A tablet's size is believed between a playing card and a drawing table, with a resolution of at
+/* A tablet's size is believed between a playing card and a 40 inch display, with a resolution of at
  * most 10160 lines an inch (twice the finest that is sold). */
 static bool size_believable(const struct candidate *c)
 {
 	const struct pen_layout *l = &c->layout;
 	float x_units = (float)l->x.maximum - (float)l->x.minimum;
 	float y_units = (float)l->y.maximum - (float)l->y.minimum;
-	return c->x_mm >= 50.0f && c->x_mm <= 1500.0f && c->y_mm >= 30.0f && c->y_mm <= 1000.0f &&
+	return c->x_mm >= 50.0f && c->x_mm <= 900.0f && c->y_mm >= 30.0f && c->y_mm <= 600.0f &&
 	       x_units / c->x_mm <= 400.0f && y_units / c->y_mm <= 400.0f;
 }
 

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { TABLE_COLUMNS_MAX = 64 };
+enum { TABLE_COLUMNS_MAX = 96 };
 
 struct table {
 	char *text;
@@ -43,7 +43,7 @@ static inline char table_cut(char **at, char separator, char **cell)
 		if (quoted && *in == '"' && in[1] != '"')
 			quoted = false;
 		else
-			*out++ = quoted && *in == '"' ? *in++ : *in;
+			*out++ = quoted && *in == '"' ? *in++ : *in; /* "" is one " */
 	}
 	char end = *in;
 	*at = end ? in + 1 : in;
@@ -67,9 +67,10 @@ static inline bool table_read(struct table *table, const char *path, char separa
 	for (; table->cell && *at; line++) {
 		int column = 0;
 		char end = separator, *cell;
-		while (end == separator && column < TABLE_COLUMNS_MAX) {
+		for (; end == separator; column++) {
 			end = table_cut(&at, separator, &cell);
-			table->cell[line * TABLE_COLUMNS_MAX + column++] = cell;
+			if (column < TABLE_COLUMNS_MAX)
+				table->cell[line * TABLE_COLUMNS_MAX + column] = cell;
 		}
 		table->columns = line ? table->columns : column;
 	}

@@ -58,6 +58,8 @@ static void compare_axes(int row, const struct pen_layout *l)
 	SAME(row, "twist_max", 0, l->twist.maximum);
 }
 
+static int secondary_tips;
+
 static void compare_switches(int row, const struct pen_layout *l)
 {
 	if (l->absolute_mouse) { /* the table leaves the buttons of a mouse out */
@@ -69,7 +71,12 @@ static void compare_switches(int row, const struct pen_layout *l)
 	SAME(row, "invert_bit", -1, bit_of(l, l->invert));
 	SAME(row, "eraser_bit", -1, bit_of(l, l->eraser));
 	SAME(row, "barrel_bit", -1, bit_of(l, l->barrel));
-	SAME(row, "barrel2_bit", -1, bit_of(l, l->barrel_2));
+	/* Where there is no Secondary Barrel Switch we take a Secondary Tip Switch; the table does
+	 * not. */
+	if (*table_cell(&expected, row, "barrel2_bit"))
+		SAME(row, "barrel2_bit", -1, bit_of(l, l->barrel_2));
+	else if (l->barrel_2.size)
+		secondary_tips++;
 	if (expected_int(row, "serial_bits", 0) <= 32)
 		SAME(row, "serial_bits", 0, l->serial.size);
 }
@@ -82,13 +89,13 @@ static void compare_size(int row, const struct pen_layout *l)
 	int unit = expected_int(row, "unit", 0);
 	float width = strtof(table_cell(&expected, row, "width_mm"), NULL);
 	float height = strtof(table_cell(&expected, row, "height_mm"), NULL);
-	if (!l->width_mm) {
-		CHECK(!l->height_mm);
+	if (l->width_mm <= 0.0f) {
+		CHECK(l->height_mm <= 0.0f);
 		sizes_doubted++;
 		/* A size in cm or inches is doubted only where it cannot be true. */
 		float finest = (float)l->x.maximum / width;
 		CHECK((unit != 0x11 && unit != 0x13) || width < 50.0f || height < 30.0f ||
-		      width > 1500.0f || finest > 400.0f);
+		      width > 900.0f || finest > 400.0f);
 		return;
 	}
 	sizes_stated++;
@@ -266,6 +273,7 @@ int main(void)
 		check_nonpen(row);
 	for (int row = 0; row < descriptors.rows; row += 7)
 		check_truncated(row);
+	CHECK(secondary_tips > 0 && secondary_tips < 20);
 	CHECK(sizes_stated > 250 && sizes_doubted > 20);
 	return test_end();
 }
