@@ -1,0 +1,20 @@
+/* Any bytes as an OBJ: refused with words, or a mesh whose indices all exist. */
+#include "format_obj.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+	struct mesh mesh;
+	char fault[200] = "";
+	if (!format_obj_read(&mesh, (const char *)data, size, fault)) {
+		MUST(fault[0]);
+		return 0;
+	}
+	for (int t = 0; t < mesh.triangle_count; t++)
+		for (int k = 0; k < 3; k++)
+			MUST(mesh.triangle[t].v[k] >= 0 &&
+			     mesh.triangle[t].v[k] < mesh.vertex_count);
+	mesh_free(&mesh);
+	return 0;
+}
