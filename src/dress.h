@@ -68,18 +68,26 @@ struct drag {
 	float weight[3];
 	int order_count;
 	int *order;        /* particles by distance from the grabbed point */
-	int *parent;       /* per particle: the particle that hands the motion on, -1: none */
+	float *distance_m; /* per particle, along the body's surface; below 0: not reached */
 	float *share;      /* per particle 0..1: what the pins leave of the motion */
-	float *distance_m; /* per particle, along the body's surface */
-	void *scratch;     /* owned by dress_drag.c */
+	int *from_first;   /* per place in `order` + 1: who hands the motion on, from[from_first[k]
+			      ..] */
+	int *from;
+	float *from_share;            /* sums to 1 over a particle's hands */
+	struct v3 *motion_m;          /* per particle, of the last move */
+	struct drag_scratch *scratch; /* adjacency and queue while the graph is built */
 };
 
 void drag_init(struct drag *drag, struct arena *arena);
+
+/* Takes hold of a point of the worn cloth. Pins (pin_count places, unused ones skipped) block the
+ * graph and are sources of zero. */
 void drag_begin(struct drag *drag, struct cloth *cloth, const struct pin *pins, int pin_count,
 		int triangle, const float weight[3]);
 
-/* Moves the grabbed point towards target_m (in space; it is laid onto the body's surface), at most
- * 30 mm in one call, and everything that depends on it. Returns units spent. */
+/* Moves the grabbed point towards target_m (in space; the way is laid along the body's surface), at
+ * most DRAG_STEP_MAX_MM in one call, and everything that depends on it. Returns units spent. */
+enum { DRAG_STEP_MAX_MM = 12 };
 long drag_move(struct drag *drag, struct v3 target_m);
 void drag_end(struct drag *drag);
 
