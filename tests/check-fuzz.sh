@@ -22,7 +22,7 @@ for fuzzer in "$build"/tests/fuzz_*; do
   for folder in $(seeds "$name"); do
     [ -d "$folder" ] && folders="$folders $folder"
   done
-  if "$fuzzer" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=3000 -verbosity=1 \
+  if "$fuzzer" -max_total_time="$seconds" -max_len=16384 -timeout=10 -rss_limit_mb=3000 -verbosity=1 \
     -artifact_prefix="$corpus-" "$corpus" $folders >"$corpus.log" 2>&1; then
     echo "passed $name: $(sed -n 's/^Done \([0-9]*\) runs.*/\1/p' "$corpus.log") inputs in $seconds s"
   else
