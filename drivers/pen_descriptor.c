@@ -135,7 +135,7 @@ static bool item_next(struct reader *r, struct item *item)
 	return true;
 }
 
-/* --- globals ---------------------------------------------------------------------------------- */
+/* --- globals ------------------------------------------------------------------------- */
 
 static bool global_push(struct reader *r)
 {
@@ -206,7 +206,7 @@ static bool global_item(struct reader *r, const struct item *item)
 	return true;
 }
 
-/* --- locals ----------------------------------------------------------------------------------- */
+/* --- locals -------------------------------------------------------------------------- */
 
 static bool usage_add(struct reader *r, uint32_t first, uint32_t last, bool extended)
 {
@@ -273,7 +273,7 @@ static uint32_t usage_at(const struct reader *r, int index)
 	return 0;
 }
 
-/* --- collections ------------------------------------------------------------------------------ */
+/* --- collections --------------------------------------------------------------------- */
 
 static enum role application_role(uint32_t usage)
 {
@@ -326,7 +326,7 @@ static bool collection_close(struct reader *r)
 	return true;
 }
 
-/* --- fields ----------------------------------------------------------------------------------- */
+/* --- fields -------------------------------------------------------------------------- */
 
 static struct candidate *candidate_at(struct reader *r, int report_id)
 {
@@ -526,7 +526,7 @@ static bool main_item(struct reader *r, const struct item *item)
 	return sound;
 }
 
-/* --- candidates to layouts -------------------------------------------------------------------- */
+/* --- candidates to layouts ----------------------------------------------------------- */
 
 /* A tablet's size is believed between a playing card and a 40 inch display, with a resolution of at
  * most 10160 lines an inch (twice the finest that is sold). */

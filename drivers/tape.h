@@ -4,6 +4,7 @@
  *   # board 1920 1080           size of the screen the pen was mapped to
  *   # budget 260000             work units a frame
  *   # frames 2700               the tape's length in frames of 1/60 s
+ *   # tablet 0 203.2 127.0    size in mm of device 0, where its descriptor does not tell it
  *   D: 0
  *   R: 234 05 0d 09 02 ...      report descriptor
  *   N: name   P: phys   I: bus vid pid
@@ -23,6 +24,7 @@ struct tape_device {
 	bool used;
 	char name[128];
 	int bus, vendor, product;
+	float width_mm, height_mm; /* 0: not stated on the tape */
 	int descriptor_size;
 	uint8_t descriptor[TAPE_DESCRIPTOR_MAX];
 };
@@ -45,20 +47,30 @@ struct tape {
 	void *memory;
 };
 
-/* Reads a tape (hid-recorder text; usbhid-dump text too, with no descriptors of its own). On a
- * fault returns false with "line N: what; remedy" in fault. Memory comes from malloc: loading is
- * not the frame loop; tape_free gives it back. Any bytes are safe. */
+/* Reads a tape: hid-recorder text, old variants too, or usbhid-dump text, where the device's number
+ * is the interface's, times count from the first report, and most have no descriptors. On a fault
+ * returns false with "line N: what; remedy" in fault and nothing to free. Memory comes from malloc:
+ * loading is not the frame loop; tape_free gives it back. Any bytes are safe. */
 bool tape_read(struct tape *tape, const char *text, size_t size, char fault[200]);
 void tape_free(struct tape *tape);
 
-/* Collects the events of one frame, from *cursor on; more than FRAME_REPORTS_MAX wait for the next.
- * Returns a bit set of devices unplugged in this frame. */
+/* Collects the events of one frame, from *cursor on; more than FRAME_REPORTS_MAX wait for the next
+ * frame, and so does what a device sends after it was unplugged in this one. Returns a bit set of
+ * the devices unplugged in this frame: read the reports first, then unplug. */
 unsigned tape_frame(const struct tape *tape, int frame, size_t *cursor,
 		    struct frame_reports *reports);
 
-/* One line of a tape. Each returns the length; `line` must hold TAPE_LINE_MAX bytes. */
+/* The lines of a tape. Each call writes one line with its end and a 0 after it, and returns the
+ * length; `line` must hold TAPE_LINE_MAX bytes.
+ *
+ * tape_write_head: part 0, 1, ... until it returns 0 gives the comments on top; budget and frames
+ * are left out when 0. tape_write_device: likewise the lines D, R, N, P, I of a device.
+ * tape_write_select: the events that follow are this device's. */
 enum { TAPE_LINE_MAX = 3 * TAPE_DESCRIPTOR_MAX + 64 };
+int tape_write_head(char *line, const struct tape *tape, int part);
 int tape_write_device(char *line, int device, const struct tape_device *description, int part);
+int tape_write_select(char *line, int device);
 int tape_write_event(char *line, int64_t time_us, int size, const uint8_t *bytes);
+int tape_write_unplug(char *line, int64_t time_us, int device);
 
 #endif
