@@ -167,7 +167,8 @@ struct ui {
 		int piece, edge; /* -1: none */
 	} sew_from, sew_to;
 	struct v3 grab_m; /* depth plane of a drag */
-	bool grabbed;     /* EDIT_GRAB was sent */
+	bool grabbed;     /* EDIT_GRAB was sent, in frame grab_frame */
+	int grab_frame;
 	bool grab_on_body;
 
 	/* What lies under the pen: for highlights only. -1: nothing. */
@@ -182,12 +183,13 @@ struct ui {
 	uint64_t seams_seen;
 	bool select_new;
 	bool was_worn, had_pair;
+	bool sent; /* edits went out: session->notice speaks of them */
 
 	int frame;               /* for motion that explains; counts ui_update calls */
 	int pulse[TARGET_COUNT]; /* frame at which a target became useful; 0: not */
 	uint8_t buttons_held;
-	bool relax_held; /* as last told to the session */
-	int notice;      /* enum text: a line for the visitor; 0: the step's hint */
+	bool relax_wanted, relax_held; /* by hand; as last told to the session */
+	int notice;                    /* enum text: a line for the visitor; 0: the step's hint */
 	int notice_frame;
 };
 

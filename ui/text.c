@@ -1,0 +1,165 @@
+#include "text.h"
+
+const struct phrase text_target[TARGET_COUNT] = {
+	[TARGET_STEP_DRAW] = {"描く", "Draw"},
+	[TARGET_STEP_SEW] = {"縫う", "Sew"},
+	[TARGET_STEP_MARK] = {"印", "Mark"},
+	[TARGET_STEP_DRESS] = {"着せる", "Dress"},
+	[TARGET_STEP_ADJUST] = {"整える", "Adjust"},
+	[TARGET_UNDO] = {"元に戻す", "Undo"},
+	[TARGET_REDO] = {"やり直す", "Redo"},
+	[TARGET_LANGUAGE] = {"日本語", "English"},
+	[TARGET_HAND] = {"利き手", "Hand"},
+	[TARGET_CLEAR] = {"はじめから", "Hold: start over"},
+	[TARGET_VIEW_FRONT] = {"前", "Front"},
+	[TARGET_VIEW_SIDE] = {"横", "Side"},
+	[TARGET_VIEW_BACK] = {"後", "Back"},
+	[TARGET_COPY] = {"複製", "Copy"},
+	[TARGET_TURN_OVER] = {"裏返す", "Turn over"},
+	[TARGET_MIRROR] = {"左右反転", "Mirror"},
+	[TARGET_DELETE] = {"消す", "Delete"},
+	[TARGET_SWAP] = {"向き", "Swap ends"},
+	[TARGET_LASER] = {"前と後", "Laser: both"},
+	[TARGET_ERASE] = {"消す", "Erase"},
+	[TARGET_WRAP] = {"着せる", "WRAP"},
+	[TARGET_PIN] = {"ピン", "PIN"},
+	[TARGET_RELAX] = {"なじませる", "RELAX"},
+};
+
+const struct phrase text_phrase[TEXT_COUNT] = {
+	[TEXT_NONE] = {"", ""},
+	[TEXT_HINT_DRAW] = {"布の形を、ひと筆で描こう", "Draw the shape of a piece in one line"},
+	[TEXT_HINT_DRAW_SELECTED] = {"次の布を描くか、この布を複製しよう",
+				     "Draw the next piece, or copy this one"},
+	[TEXT_HINT_SEW] = {"縫い合わせる端から端へ、線を引こう",
+			   "Draw a line from one edge to the edge it joins"},
+	[TEXT_HINT_SEW_SELECTED] = {"同じ文字どうしが縫われます",
+				    "Edges with the same letter are sewn"},
+	[TEXT_HINT_MARK_CLOTH] = {"まず布の上に、線を引こう", "First draw a line on the cloth"},
+	[TEXT_HINT_MARK_BODY] = {"体の同じところに、線を引こう",
+				 "Now draw its partner on the body"},
+	[TEXT_HINT_MARK_PAIR] = {"線が合ったら「着せる」を押そう",
+				 "When the lines match, press WRAP"},
+	[TEXT_HINT_ERASE] = {"消したい線や番号に触れよう", "Touch a line or number to erase it"},
+	[TEXT_HINT_LASER] = {"ひとつの線で、前と後に印がつきます",
+			     "One line marks the front and the back"},
+	[TEXT_HINT_DRESS] = {"印をつけて「着せる」を押そう", "Make marks, then press WRAP"},
+	[TEXT_HINT_DRESSING] = {"着せています…", "Dressing…"},
+	[TEXT_HINT_WORN] = {"服に触れて、動かしてみよう", "Touch the garment and pull it"},
+	[TEXT_HINT_ADJUST] = {"服をつまんで、体に沿って動かそう",
+			      "Drag the garment along the body"},
+	[TEXT_HINT_PIN] = {"留めたいところを軽く触れよう",
+			   "Tap the cloth where a pin should hold it"},
+	[TEXT_HINT_RELAX] = {"布がなじんでいきます", "The cloth settles while you hold"},
+	[TEXT_AGAIN] = {"うまくいきませんでした。もう一度", "That did not work. Please try again"},
+	[TEXT_CROSSES] = {"線が交わっています。もう一度描こう",
+			  "The line crosses itself. Draw again"},
+	[TEXT_SMALL] = {"小さすぎます。もっと大きく描こう", "Too small. Draw it larger"},
+	[TEXT_ENDS_APART] = {"線の始めと終わりを近づけよう",
+			     "Bring both ends of the line together"},
+	[TEXT_OVERSKETCH] = {"布のふちから、ふちへ描こう",
+			     "Begin and end the line on the piece's edge"},
+	[TEXT_NO_PIECE] = {"先に布を選ぼう", "Choose a piece first"},
+	[TEXT_NO_SEAM] = {"先に縫い目を選ぼう", "Choose a seam first"},
+	[TEXT_SELF_SEAM] = {"別の端まで線を引こう", "Draw on to a different edge"},
+	[TEXT_EDGE_SEWN] = {"その端はもう縫ってあります", "That edge is sewn already"},
+	[TEXT_SEW_ENDS] = {"布の端から端へ、線を引こう", "Draw from one edge to another"},
+	[TEXT_OFF_CLOTH] = {"布の上に線を引こう", "Draw the line on a piece of cloth"},
+	[TEXT_OFF_BODY] = {"体の上に線を引こう", "Draw the line on the body"},
+	[TEXT_NO_PAIR] = {"先に、布と体に同じ番号の線を引こう",
+			  "First draw a line on the cloth and its partner on the body"},
+	[TEXT_NOT_WORN] = {"先に「着せる」を押そう", "Press WRAP first"},
+	[TEXT_FULL] = {"もういっぱいです。何かを消そう", "It is full. Remove something first"},
+	[TEXT_MESH] = {"この形は着せられません。布を描き直そう",
+		       "This shape cannot be worn. Redraw the piece"},
+	[TEXT_INSIDE_UP] = {"うら", "inside up"},
+	[TEXT_CLOTH] = {"布", "Piece"},
+	[TEXT_STRAIN] = {"布の伸び", "Stretch of the cloth"},
+	[TEXT_TITLE] = {"着付け", "kitsuke"},
+};
+
+/* The first entry whose words occur in the reason decides, so that a sentence may be polished
+ * without the face going silent. */
+static const struct {
+	const char *words;
+	enum text text;
+} refusal[] = {
+	{"cross", TEXT_CROSSES},
+	{"square centimetre", TEXT_SMALL},
+	{"small", TEXT_SMALL},
+	{"short", TEXT_SMALL},
+	{"ends", TEXT_ENDS_APART},
+	{"close", TEXT_ENDS_APART},
+	{"begin", TEXT_OVERSKETCH},
+	{"sewn already", TEXT_EDGE_SEWN},
+	{"sewn to itself", TEXT_SELF_SEAM},
+	{"partner on the body", TEXT_NO_PAIR},
+	{"press WRAP", TEXT_NOT_WORN},
+	{"full", TEXT_FULL},
+	{"as many", TEXT_FULL},
+	{"too many", TEXT_FULL},
+	{"no such piece", TEXT_NO_PIECE},
+	{"no such seam", TEXT_NO_SEAM},
+	{"no cloth", TEXT_OFF_CLOTH},
+	{"no body", TEXT_OFF_BODY},
+	{"mesh", TEXT_MESH},
+	{"triang", TEXT_MESH},
+};
+
+static bool holds_words(const char *text, const char *words)
+{
+	size_t size = strlen(words);
+	for (; *text; text++)
+		if (strncmp(text, words, size) == 0)
+			return true;
+	return false;
+}
+
+enum text text_refusal(const char *reason)
+{
+	for (int i = 0; i < COUNT_OF(refusal); i++)
+		if (holds_words(reason, refusal[i].words))
+			return refusal[i].text;
+	return TEXT_AGAIN;
+}
+
+static enum text hint_mark(const struct ui *ui, const struct session *session)
+{
+	int cloth = 0, body = 0;
+	for (int m = 0; m < MARKS_MAX; m++) {
+		cloth += session->document.marks.cloth[m].used;
+		body += session->document.marks.body[m].used;
+	}
+	if (ui->erase)
+		return TEXT_HINT_ERASE;
+	if (ui->laser)
+		return TEXT_HINT_LASER;
+	if (cloth > body)
+		return TEXT_HINT_MARK_BODY;
+	return cloth > 0 && cloth == body ? TEXT_HINT_MARK_PAIR : TEXT_HINT_MARK_CLOTH;
+}
+
+enum text text_hint(const struct ui *ui, const struct session *session)
+{
+	if (session->job != JOB_NONE)
+		return TEXT_HINT_DRESSING;
+	if (session->relaxing)
+		return TEXT_HINT_RELAX;
+	switch (ui->step) {
+	case STEP_DRAW:
+		return ui->piece >= 0 ? TEXT_HINT_DRAW_SELECTED : TEXT_HINT_DRAW;
+	case STEP_SEW:
+		return ui->seam >= 0 ? TEXT_HINT_SEW_SELECTED : TEXT_HINT_SEW;
+	case STEP_MARK:
+		return hint_mark(ui, session);
+	case STEP_DRESS:
+		return session->cloth.worn ? TEXT_HINT_WORN : TEXT_HINT_DRESS;
+	case STEP_ADJUST:
+		if (!session->cloth.worn)
+			return TEXT_HINT_DRESS;
+		return ui->pin_mode ? TEXT_HINT_PIN : TEXT_HINT_ADJUST;
+	case STEP_COUNT:
+		break;
+	}
+	return TEXT_NONE;
+}
