@@ -1,0 +1,35 @@
+/* What the three kinds of display share: a table of verbs, and EGL's context. */
+#ifndef DISPLAY_PRIVATE_H
+#define DISPLAY_PRIVATE_H
+
+#include "display.h"
+
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+
+struct display_verbs {
+	bool (*present)(struct display *display);
+	bool (*input)(struct display *display, int device, int64_t now_us,
+		      struct frame_reports *reports);
+	void (*close)(struct display *display);
+};
+
+/* The first member of each kind's own struct. */
+struct display {
+	const struct display_verbs *verbs;
+	int width, height;
+};
+
+struct display *display_headless_open(int *width, int *height, char fault[200]);
+struct display *display_window_open(int *width, int *height, char fault[200]);
+struct display *display_kms_open(int *width, int *height, char fault[200]);
+
+/* A GLES 3.0 context for a display that eglInitialize has accepted. Asks for a context that tells
+ * of GPU resets where the driver can. `config` may be EGL_NO_CONFIG_KHR. */
+EGLContext display_context(EGLDisplay egl, EGLConfig config);
+
+/* Has the GPU lost our context (reset, hang)? */
+bool display_context_lost(void);
+bool display_extension(const char *list, const char *name);
+
+#endif
