@@ -19,4 +19,7 @@ void draw_close(struct draw *draw);
 /* The body's mesh changed (start, another character). */
 void draw_body_changed(struct draw *draw);
 
+/* Shows the bones over the figure (S19), for the operator and for pictures in documents. */
+void draw_bones(struct draw *draw, bool shown);
+
 #endif

@@ -1,0 +1,162 @@
+/* One frame of the picture, from the back to the front. */
+#include "draw.h"
+#include "draw_private.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+/* Two triangles a quad, corners in the order 0 1 2 3 of a strip. */
+static bool quads_make(struct draw *draw)
+{
+	int quads = RIBBON_VERTICES_MAX / 4;
+	uint16_t *index = malloc((size_t)quads * 6 * sizeof *index);
+	if (!index)
+		return false;
+	for (int i = 0; i < quads; i++) {
+		static const int corner[6] = {0, 1, 2, 2, 1, 3};
+		for (int k = 0; k < 6; k++)
+			index[6 * i + k] = (uint16_t)(4 * i + corner[k]);
+	}
+	glGenBuffers(1, &draw->quads);
+	glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, draw->quads);
+	glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)((size_t)quads * 6 * sizeof *index),
+		     index, GL_STATIC_DRAW);
+	free(index);
+	return true;
+}
+
+static bool parts_open(struct draw *draw, char fault[200])
+{
+	return quads_make(draw) && room_open(draw, fault) && body_open(draw, fault) &&
+	       cloth_open(draw, fault) && shadow_open(draw, fault) && ribbons_open(draw, fault) &&
+	       sprites_open(draw, fault);
+}
+
+struct draw *draw_open(int width, int height, char fault[200])
+{
+	GLint texture_max = 0;
+	struct draw *draw = calloc(1, sizeof *draw);
+	fault[0] = 0;
+	glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture_max);
+	if (draw && (width > texture_max || height > texture_max)) {
+		snprintf(fault, 200, "this GPU draws at most %d x %d pixels: choose a smaller mode",
+			 texture_max, texture_max);
+		free(draw);
+		return NULL;
+	}
+	if (!draw) {
+		snprintf(fault, 200, "no memory to draw with");
+		return NULL;
+	}
+	draw->width = width;
+	draw->height = height;
+	draw->px = float_max((float)height / 1080.0f, 0.5f);
+	draw->marks.stale = true;
+	glGetIntegerv(GL_FRAMEBUFFER_BINDING, &draw->target);
+	if (!parts_open(draw, fault)) {
+		if (!fault[0])
+			snprintf(fault, 200, "no memory to draw with");
+		draw_close(draw);
+		return NULL;
+	}
+	draw->sheet = sheet_open(width, height, fault);
+	draw->chrome = draw->sheet ? chrome_open(width, height, fault) : NULL;
+	if (!draw->chrome) {
+		draw_close(draw);
+		return NULL;
+	}
+	return draw;
+}
+
+/* GL objects go with their context; the display closes that next. */
+void draw_close(struct draw *draw)
+{
+	if (!draw)
+		return;
+	room_release(draw);
+	body_release(draw);
+	cloth_release(draw);
+	ribbons_release(draw);
+	sprites_release(draw);
+	if (draw->sheet)
+		sheet_close(draw->sheet);
+	if (draw->chrome)
+		chrome_close(draw->chrome);
+	free(draw);
+}
+
+void draw_body_changed(struct draw *draw)
+{
+	draw->body.stale = true;
+	draw->marks.stale = true;
+}
+
+void draw_bones(struct draw *draw, bool shown)
+{
+	draw->bones = shown;
+}
+
+/* The pane counts from the top of the screen, GL from the bottom. */
+static void pane_enter(const struct draw *draw, const struct rect *pane)
+{
+	int bottom = draw->height - pane->y - pane->h;
+	glViewport(pane->x, bottom, pane->w, pane->h);
+	glScissor(pane->x, bottom, pane->w, pane->h);
+	glEnable(GL_SCISSOR_TEST);
+	glEnable(GL_DEPTH_TEST);
+	glDepthFunc(GL_LEQUAL);
+	glDepthMask(GL_TRUE);
+	glClear(GL_DEPTH_BUFFER_BIT);
+}
+
+static void figure_draw(struct draw *draw, const struct ui *ui, const struct session *session)
+{
+	if ((draw->body.stale || draw->body.hash != session->body.hash) &&
+	    session->body.vertex_count)
+		body_upload(draw, &session->body);
+	cloth_upload(draw, session);
+	camera_make(&draw->camera, &ui->view, &session->body);
+	shadow_draw(draw);
+	pane_enter(draw, &ui->view.pane);
+	room_draw(draw, &ui->view.pane);
+	body_draw(draw);
+	cloth_draw(draw);
+}
+
+static void lines_draw(struct draw *draw, const struct ui *ui, const struct session *session)
+{
+	ribbons_begin(draw);
+	sprites_begin(draw);
+	trim_add(draw, session);
+	ribbons_draw(draw, 0.0035f);
+	ribbons_begin(draw);
+	marks_add(draw, ui, session);
+	ribbons_draw(draw, 0.010f);
+	sprites_draw(draw, false);
+	ribbons_begin(draw);
+	sprites_begin(draw);
+	glDisable(GL_DEPTH_TEST);
+	hand_add(draw, ui, session);
+	if (draw->bones)
+		bones_add(draw, &session->body);
+	ribbons_draw(draw, 0.0f);
+	sprites_draw(draw, true);
+}
+
+static void layers_draw(struct draw *draw, const struct ui *ui, const struct session *session)
+{
+	glDisable(GL_DEPTH_TEST);
+	glDisable(GL_SCISSOR_TEST);
+	glViewport(0, 0, draw->width, draw->height);
+	upload_draw(draw, &draw->sheet_upload, sheet_update(draw->sheet, ui, session));
+	upload_draw(draw, &draw->chrome_upload, chrome_update(draw->chrome, ui, session));
+}
+
+void draw_frame(struct draw *draw, const struct ui *ui, const struct session *session)
+{
+	glGetIntegerv(GL_FRAMEBUFFER_BINDING, &draw->target);
+	glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+	figure_draw(draw, ui, session);
+	lines_draw(draw, ui, session);
+	layers_draw(draw, ui, session);
+}

@@ -1,0 +1,110 @@
+/* The figure: uploaded once, with the light that its own limbs take from it. */
+#include "draw_private.h"
+
+#include <stddef.h>
+#include <stdlib.h>
+
+struct body_vertex {
+	struct v3 position_m;
+	struct v3 normal;
+	uint8_t material[4]; /* openness to the sky */
+};
+
+bool body_open(struct draw *draw, char fault[200])
+{
+	struct draw_body *body = &draw->body;
+	body->vertex = calloc(BODY_VERTICES_MAX, sizeof *body->vertex);
+	body->index = calloc((size_t)BODY_TRIANGLES_MAX * 3, sizeof *body->index);
+	body->open_sky = calloc(BODY_VERTICES_MAX, sizeof *body->open_sky);
+	glGenBuffers(1, &body->vertices);
+	glGenBuffers(1, &body->indices);
+	body->stale = true;
+	return body->vertex && body->index && body->open_sky &&
+	       surface_open(&body->program, false, fault);
+}
+
+void body_release(struct draw *draw)
+{
+	free(draw->body.vertex);
+	free(draw->body.index);
+	free(draw->body.open_sky);
+}
+
+/* How open a place is, from the distance field of the body alone (after Evans, "Fast Approximations
+ * for Global Illumination on Dynamic Scenes", 2006): away from a free surface the distance grows as
+ * fast as one walks; near another limb it does not. Smooth, and a handful of queries a vertex. */
+static float openness(const struct body *body, struct v3 position_m, struct v3 direction)
+{
+	static const float step_m[3] = {0.025f, 0.07f, 0.16f};
+	static const float weight[3] = {0.30f, 0.36f, 0.34f};
+	float closed = 0.0f;
+	for (int i = 0; i < 3; i++) {
+		struct body_hit hit;
+		body_nearest(body, v3_mad(position_m, direction, step_m[i]), 0, &hit);
+		float missing = 1.0f - hit.distance_m / step_m[i];
+		closed += weight[i] * float_clamp(missing, 0.0f, 1.0f);
+	}
+	return 1.0f - closed;
+}
+
+static void openness_bake(struct draw_body *draw, const struct body *body)
+{
+	for (int i = 0; i < body->vertex_count; i++) {
+		struct v3 normal = body->normal[i], position_m = body->position_m[i];
+		struct v3 upward = v3_normalize((struct v3){normal.x, normal.y + 0.55f, normal.z});
+		float open = 0.6f * openness(body, position_m, normal) +
+			     0.4f * openness(body, position_m, upward);
+		/* A free convex surface answers about 0.95; a flat one exactly 1. */
+		draw->open_sky[i] = float_clamp((open - 0.25f) * 1.45f, 0.12f, 1.0f);
+	}
+}
+
+void body_upload(struct draw *draw, const struct body *body)
+{
+	struct draw_body *own = &draw->body;
+	MUST(body->vertex_count <= BODY_VERTICES_MAX);
+	openness_bake(own, body);
+	for (int i = 0; i < body->vertex_count; i++) {
+		struct body_vertex *vertex = &own->vertex[i];
+		vertex->position_m = body->position_m[i];
+		vertex->normal = body->normal[i];
+		vertex->material[0] = (uint8_t)(own->open_sky[i] * 255.0f);
+	}
+	own->index_count = 3 * body->triangle_count;
+	for (int i = 0; i < body->triangle_count; i++)
+		for (int k = 0; k < 3; k++)
+			own->index[3 * i + k] = (uint16_t)body->triangle[i].v[k];
+	glBindBuffer(GL_ARRAY_BUFFER, own->vertices);
+	glBufferData(GL_ARRAY_BUFFER,
+		     (GLsizeiptr)((size_t)body->vertex_count * sizeof *own->vertex), own->vertex,
+		     GL_STATIC_DRAW);
+	glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, own->indices);
+	glBufferData(GL_ELEMENT_ARRAY_BUFFER,
+		     (GLsizeiptr)((size_t)own->index_count * sizeof *own->index), own->index,
+		     GL_STATIC_DRAW);
+	room_floor_changed(draw, body);
+	own->hash = body->hash;
+	own->stale = false;
+}
+
+void body_bind(const struct draw *draw)
+{
+	int stride = (int)sizeof(struct body_vertex);
+	glBindBuffer(GL_ARRAY_BUFFER, draw->body.vertices);
+	glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, draw->body.indices);
+	gl_attributes(1u << AT_POSITION | 1u << AT_NORMAL | 1u << AT_MATERIAL);
+	gl_floats(AT_POSITION, 3, stride, offsetof(struct body_vertex, position_m));
+	gl_floats(AT_NORMAL, 3, stride, offsetof(struct body_vertex, normal));
+	gl_bytes(AT_MATERIAL, stride, offsetof(struct body_vertex, material));
+}
+
+void body_draw(struct draw *draw)
+{
+	if (!draw->body.index_count)
+		return;
+	body_bind(draw);
+	surface_use(&draw->body.program, draw, 0.007f);
+	glEnable(GL_CULL_FACE);
+	glDrawElements(GL_TRIANGLES, draw->body.index_count, GL_UNSIGNED_SHORT, NULL);
+	glDisable(GL_CULL_FACE);
+}

@@ -1,0 +1,254 @@
+/* What the files of the picture share. Every GL object hangs on one of these structs and can be
+ * made again from CPU data. */
+#ifndef DRAW_PRIVATE_H
+#define DRAW_PRIVATE_H
+
+#include "draw.h"
+#include "draw_gl.h"
+#include "draw_layer.h"
+
+enum {
+	RIBBON_VERTICES_MAX = 49152, /* 1.5 MB: seams, hems, marks, all at once */
+	SPRITES_MAX = 160,
+	SHADOW_SIZE = 512,
+	SHADOW_SIZE_FINE = 2048,
+	MARK_SAMPLES_MAX = 96,
+	BODY_LINE_POINTS_MAX = 128,
+	HAND_POINTS_MAX = 1024,
+	EDGE_TABLE_SIZE = 1 << 16,
+};
+
+/* The eye, as matrices. */
+struct camera {
+	float world_to_clip[16]; /* column-major */
+	float world_to_axes[9];  /* column-major 3x3: right, up, towards the viewer */
+	float world_to_light[16];
+	struct v3 eye_m, back; /* back: towards the viewer */
+	float depth[2];        /* NDC depth of distance d is depth[0] - depth[1] / d */
+	float px_per_m;        /* at distance 1 m */
+	struct rect pane;
+};
+
+/* Lit surfaces: body and cloth. */
+struct surface_program {
+	GLuint program;
+	GLint clip, axes, light, eye, depth, bias, shadow, weave, strength;
+};
+
+/* An edge of the garment with a triangle on one side only. */
+struct rim {
+	int a, b, inner; /* garment vertices; inner: the third corner of its triangle */
+	bool sewn;       /* welded to another such edge */
+};
+
+struct edge_use {
+	int a, b, inner; /* particles a < b as keys; inner as in rim */
+	int from, to;    /* garment vertices in the triangle's order */
+	int count, next;
+};
+
+struct draw_body {
+	GLuint vertices, indices;
+	int index_count;
+	struct surface_program program;
+	struct body_vertex *vertex; /* BODY_VERTICES_MAX */
+	uint16_t *index;
+	float *open_sky; /* per body vertex: 0 closed in, 1 free */
+	uint64_t hash;   /* of the body that was uploaded */
+	bool stale;
+};
+
+struct cloth_vertex {
+	struct v3 position_m;
+	struct v3 normal;
+	uint8_t material[4]; /* openness, glow */
+};
+
+struct draw_cloth {
+	GLuint moving, fixed, indices;
+	struct surface_program program;
+	GLuint weave;
+	int index_count;
+	struct cloth_vertex *vertex; /* GARMENT_VERTICES_MAX */
+	struct cloth_fixed *rest;
+	uint16_t *index;
+	struct v3 *normal;
+	float *crease; /* per vertex: > 0 in a valley */
+	int *born;     /* frame in which the vertex was laid on the body; -1: not yet */
+	/* a copy of what was uploaded, to see changes */
+	int vertex_count, triangle_count, placed_count;
+	struct v2 *seen_rest_m;
+	struct triangle *seen_triangle;
+	int swatch[PIECES_MAX];
+	/* rims: edges of one triangle only, once seams are closed */
+	int rim_count;
+	struct rim *rim;
+	int *edge_table; /* hash of an edge -> edge_use */
+	struct edge_use *edge_use;
+	uint8_t *stitched; /* per vertex: on the side of a seam that shows its stitches */
+	bool rims_known, rims_welded;
+};
+
+enum dash_row {
+	DASH_SOLID,
+	DASH_MARK_2, /* and on: the styles of look.h */
+	DASH_STITCH = MARK_STYLES,
+	DASH_PULL,
+	DASH_ROWS,
+};
+
+struct ribbon_vertex {
+	struct v3 position_m;
+	uint8_t colour[4]; /* premultiplied */
+	float along;       /* in periods of the dash */
+	float row;         /* of the dash texture, 0..1 */
+	float across_px, half_px;
+};
+
+struct ribbons {
+	GLuint vertices, dashes, program;
+	GLint clip, depth, bias;
+	int count; /* vertices, 4 a segment */
+	struct ribbon_vertex *vertex;
+};
+
+/* How a line looks. */
+struct stroke {
+	uint32_t colour;
+	float alpha;
+	float half_px;
+	enum dash_row row;
+	float period; /* metres or pixels, as `along` is counted */
+};
+
+struct sprite_vertex {
+	float clip[4];
+	float place[2];
+	uint8_t colour[4]; /* multiplies the picture */
+};
+
+struct sprites {
+	GLuint vertices, atlas, program;
+	int count; /* 4 vertices a sprite */
+	struct sprite_vertex *vertex;
+};
+
+struct shadow {
+	GLuint framebuffer, texture, program;
+	GLint clip;
+	int size; /* 0: no shadows */
+};
+
+struct room {
+	GLuint backdrop, floor, quad, program, floor_program;
+	GLint place, cut, floor_clip, floor_half;
+	struct rect pane; /* what the backdrop was made for */
+	uint8_t *pixels;
+	float floor_half_m;
+};
+
+/* A place on the garment that rides with it. */
+struct ride {
+	int triangle; /* garment.triangle; -1: lost */
+	float weight[3];
+};
+
+struct draw_marks {
+	struct marks seen;
+	struct pin seen_pin[PINS_MAX];
+	int ride_count[MARKS_MAX];
+	struct ride ride[MARKS_MAX][MARK_SAMPLES_MAX];
+	struct ride pin[PINS_MAX];
+	int line_count[MARKS_MAX]; /* body marks, laid onto the surface */
+	struct v3 line_m[MARKS_MAX][BODY_LINE_POINTS_MAX];
+	struct v3 line_normal[MARKS_MAX][BODY_LINE_POINTS_MAX];
+	bool stale;
+};
+
+struct upload {
+	GLuint texture;
+	GLenum format;
+};
+
+struct draw {
+	int width, height;
+	GLint target; /* the framebuffer that the frame goes to */
+	GLuint quads; /* indices of RIBBON_VERTICES_MAX / 4 quads */
+	struct camera camera;
+	struct room room;
+	struct draw_body body;
+	struct draw_cloth cloth;
+	struct ribbons ribbons;
+	struct sprites sprites;
+	struct shadow shadow;
+	struct draw_marks marks;
+	struct sheet *sheet;
+	struct chrome *chrome;
+	struct upload sheet_upload, chrome_upload;
+	float px; /* one pixel of the look's drawing (1080 lines) on this screen */
+	bool bones;
+};
+
+void camera_make(struct camera *camera, const struct view *view, const struct body *body);
+
+/* Where a point is on the screen in clip coordinates, moved towards the viewer by lift_m. */
+void camera_clip(const struct camera *camera, struct v3 point_m, float lift_m, float clip[4]);
+
+bool surface_open(struct surface_program *surface, bool cloth, char fault[200]);
+void surface_use(const struct surface_program *surface, const struct draw *draw, float bias_m);
+
+bool room_open(struct draw *draw, char fault[200]);
+void room_release(struct draw *draw);
+void room_floor_changed(struct draw *draw, const struct body *body);
+void room_draw(struct draw *draw, const struct rect *pane);
+
+bool body_open(struct draw *draw, char fault[200]);
+void body_release(struct draw *draw);
+void body_upload(struct draw *draw, const struct body *body);
+void body_bind(const struct draw *draw);
+void body_draw(struct draw *draw);
+
+bool cloth_open(struct draw *draw, char fault[200]);
+void cloth_release(struct draw *draw);
+void cloth_upload(struct draw *draw, const struct session *session);
+void cloth_bind(const struct draw *draw);
+void cloth_draw(struct draw *draw);
+
+/* Seams, stitches and hems of the worn garment, as ribbons. */
+void trim_add(struct draw *draw, const struct session *session);
+
+bool shadow_open(struct draw *draw, char fault[200]);
+void shadow_draw(struct draw *draw);
+
+bool ribbons_open(struct draw *draw, char fault[200]);
+void ribbons_release(struct draw *draw);
+void ribbons_begin(struct draw *draw);
+
+/* A line through points, each lifted off its surface along its normal by lift_m (normal NULL: not).
+ * Lines on a surface fade where it turns away. Dashes are counted in pixels from the line's start.
+ * Drops what does not fit. */
+void ribbons_line(struct draw *draw, const struct v3 *point_m, const struct v3 *normal, int count,
+		  float lift_m, const struct stroke *stroke);
+
+/* One segment whose dashes are counted in metres from along_m. */
+void ribbons_segment(struct draw *draw, struct v3 a_m, struct v3 b_m, float along_m,
+		     const struct stroke *stroke);
+
+/* Draws what was added since ribbons_begin, nearer to the eye by lift_m. */
+void ribbons_draw(struct draw *draw, float lift_m);
+
+bool sprites_open(struct draw *draw, char fault[200]);
+void sprites_release(struct draw *draw);
+void sprites_begin(struct draw *draw);
+void sprites_draw(struct draw *draw, bool over_everything);
+void sprite_number(struct draw *draw, struct v3 point_m, int number);
+void sprite_pin(struct draw *draw, struct v3 head_m);
+void sprite_ring(struct draw *draw, struct v2 centre_px, float radius_px, uint32_t colour);
+
+void marks_add(struct draw *draw, const struct ui *ui, const struct session *session);
+void hand_add(struct draw *draw, const struct ui *ui, const struct session *session);
+void bones_add(struct draw *draw, const struct body *body);
+
+void upload_draw(struct draw *draw, struct upload *upload, const struct layer *layer);
+
+#endif
