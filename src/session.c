@@ -6,7 +6,6 @@ enum {
 	SWEEPS_BETWEEN_UNFOLDS = 200, /* while RELAX is held */
 	VERTICES_WANTED = 2400,
 	BUDGET_UNITS = 600000,
-	SETTLE_FRAMES_MAX = 1800,
 	REST_FRAMES = 30, /* so many calm frames, and the cloth sleeps until something touches it */
 };
 
@@ -192,7 +191,7 @@ static const char *clear(struct session *session)
 
 static const char *step(struct session *session, int frames)
 {
-	if (frames < 1 || frames > 1000000)
+	if (frames < 1 || frames > STEP_FRAMES_MAX)
 		return "step takes 1 to 1000000 frames";
 	for (int i = 0; i < frames; i++)
 		session_advance(session);

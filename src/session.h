@@ -9,6 +9,11 @@
 #include "measure.h"
 #include "pattern.h"
 
+enum {
+	STEP_FRAMES_MAX = 1000000, /* in one edit */
+	SETTLE_FRAMES_MAX = 1800,
+};
+
 enum session_job {
 	JOB_NONE,
 	JOB_MESH, /* the pattern is being triangulated */

@@ -1,0 +1,251 @@
+/* kitsuke dress JOURNAL: a document is run without input devices. */
+#include "commands.h"
+
+#include "character.h"
+#include "garment_file.h"
+#include "journal_file.h"
+#include "options.h"
+#include "picture.h"
+#include "report.h"
+#include "snapshot.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+enum { PICTURE_WIDTH = 1280, PICTURE_HEIGHT = 720, PROGRESS_FRAMES = 30 };
+
+static const char usage[] =
+	"usage: kitsuke dress JOURNAL [--obj FILE] [--glb FILE] [--picture FILE] [--report FILE]\n"
+	"                     [--body FILE|mannequin] [--body-obj FILE] [--progress]\n";
+
+struct dresser {
+	const char *journal, *obj, *glb, *picture, *report, *body, *body_obj;
+	bool progress;
+	void *memory;
+	struct session *session;
+	struct edit *edit;
+	struct frame_clock clock;
+	char body_name[NAME_BYTES_MAX]; /* empty: no body yet */
+	int refused;                    /* edits that a person wrote and the session refused */
+	char fault[FAULT_BYTES];
+};
+
+static int complain(const struct dresser *dresser, enum exit_status status)
+{
+	fprintf(stderr, "kitsuke dress: %s\n", dresser->fault);
+	return status;
+}
+
+/* ---- start ---- */
+
+static bool dresser_open(struct dresser *dresser)
+{
+	struct arena arena;
+	dresser->memory = malloc(KIOSK_MEMORY_BYTES);
+	dresser->session = calloc(1, sizeof *dresser->session);
+	dresser->edit = calloc(1, sizeof *dresser->edit);
+	if (!dresser->memory || !dresser->session || !dresser->edit ||
+	    !frame_clock_open(&dresser->clock)) {
+		snprintf(dresser->fault, FAULT_BYTES, "not enough memory to start");
+		return false;
+	}
+	arena_init(&arena, dresser->memory, KIOSK_MEMORY_BYTES);
+	session_init(dresser->session, &arena);
+	return true;
+}
+
+static void dresser_close(struct dresser *dresser)
+{
+	frame_clock_close(&dresser->clock);
+	free(dresser->edit);
+	free(dresser->session);
+	free(dresser->memory);
+}
+
+/* --body wins over what the journal names; a body that the journal names lies beside it. */
+static bool put_body(struct dresser *dresser, const char *name)
+{
+	char folder[PATH_BYTES_MAX], note[FAULT_BYTES];
+	int length = (int)(store_name(dresser->journal) - dresser->journal);
+	snprintf(folder, sizeof folder, "%.*s", length ? length : 1,
+		 length ? dresser->journal : ".");
+	if (!character_load(&dresser->session->body, dresser->body ? dresser->body : name,
+			    dresser->body ? NULL : folder, note, dresser->fault))
+		return false;
+	if (note[0])
+		fprintf(stderr, "kitsuke dress: note: %s\n", note);
+	snprintf(dresser->body_name, sizeof dresser->body_name, "%s", name);
+	return true;
+}
+
+/* ---- the run ---- */
+
+static void show_progress(const struct dresser *dresser, bool last)
+{
+	static const char *const job_name[] = {"moving", "cutting", "wrapping"};
+	const struct session *session = dresser->session;
+	if (!dresser->progress || (!last && session->frame % PROGRESS_FRAMES != 0))
+		return;
+	fprintf(stderr, "\r%s: frame %d, %s%s", store_name(dresser->journal), session->frame,
+		last ? "done" : job_name[session->job], last ? "        \n" : "    ");
+}
+
+static void run_frame(struct dresser *dresser)
+{
+	frame_clock_begin(&dresser->clock, dresser->session);
+	session_advance(dresser->session);
+	frame_clock_end(&dresser->clock, dresser->session);
+	show_progress(dresser, false);
+}
+
+/* STEP and SETTLE are taken apart into frames, so that each can be timed and shown. */
+static bool apply(struct dresser *dresser, const struct edit *edit)
+{
+	struct session *session = dresser->session;
+	if (edit->kind == EDIT_STEP && edit->i[0] >= 1 && edit->i[0] <= STEP_FRAMES_MAX) {
+		for (int i = 0; i < edit->i[0]; i++)
+			run_frame(dresser);
+		return true;
+	}
+	if (edit->kind == EDIT_SETTLE) {
+		for (int i = 0; i < SETTLE_FRAMES_MAX && session_busy(session); i++)
+			run_frame(dresser);
+		return true;
+	}
+	return session_apply(session, edit);
+}
+
+/* A station's journal holds what was refused too; in one written by hand that is a mistake. */
+static void note_refusal(struct dresser *dresser, const struct journal_file *file)
+{
+	if (!file->by_hand)
+		return;
+	dresser->refused++;
+	fprintf(stderr, "%s%s: line %d: refused: %s\n", dresser->progress ? "\n" : "", file->path,
+		file->line, dresser->session->notice);
+}
+
+static bool take_edit(struct dresser *dresser, const struct journal_file *file)
+{
+	const struct edit *edit = dresser->edit;
+	if (edit->kind == EDIT_BODY) {
+		if (!dresser->body_name[0])
+			return put_body(dresser, edit->name);
+		if (strcmp(dresser->body_name, edit->name) == 0)
+			return true;
+		snprintf(dresser->fault, FAULT_BYTES, "%.250s: line %d: the body must be named %s",
+			 file->path, file->line, "before the first edit that needs one");
+		return false;
+	}
+	if (!dresser->body_name[0] && edit->kind != EDIT_BUDGET &&
+	    !put_body(dresser, CHARACTER_MANNEQUIN))
+		return false;
+	if (!apply(dresser, edit))
+		note_refusal(dresser, file);
+	return true;
+}
+
+static bool run_journal(struct dresser *dresser)
+{
+	struct journal_file file;
+	enum journal_result result = JOURNAL_NOTHING;
+	if (!journal_file_open(&file, dresser->journal, dresser->fault))
+		return false;
+	bool taken = true;
+	while (taken &&
+	       (result = journal_file_next(&file, dresser->edit, dresser->fault)) == JOURNAL_EDIT)
+		taken = take_edit(dresser, &file);
+	if (file.torn)
+		fprintf(stderr, "%s: line %d: note: cut off in the middle; all before it is kept\n",
+			file.path, file.line);
+	journal_file_close(&file);
+	if (taken && result != JOURNAL_FAULT && !dresser->body_name[0])
+		taken = put_body(dresser, CHARACTER_MANNEQUIN);
+	show_progress(dresser, true);
+	return taken && result != JOURNAL_FAULT;
+}
+
+/* ---- what comes out ---- */
+
+static bool write_picture(struct dresser *dresser)
+{
+	struct snapshot snapshot;
+	struct ui *ui = calloc(1, sizeof *ui);
+	bool open = ui && snapshot_open(&snapshot, PICTURE_WIDTH, PICTURE_HEIGHT, dresser->fault);
+	bool written = false;
+	if (open) {
+		ui_init(ui, snapshot.width, snapshot.height);
+		ui_step(ui, dresser->session->cloth.worn ? STEP_ADJUST : STEP_MARK);
+		snapshot_take(&snapshot, ui, dresser->session);
+		written = picture_write_png(dresser->picture, snapshot.width, snapshot.height,
+					    snapshot.rgba, dresser->fault);
+		snapshot_close(&snapshot);
+	}
+	free(ui);
+	return written;
+}
+
+static int write_results(struct dresser *dresser)
+{
+	struct session *session = dresser->session;
+	struct measure measure;
+	if ((dresser->obj || dresser->glb) && !session->cloth.worn) {
+		snprintf(dresser->fault, FAULT_BYTES, "%.250s: leaves no garment on the body: %s",
+			 dresser->journal,
+			 session->notice[0] ? session->notice : "it never finishes a wrap");
+		return complain(dresser, STATUS_INPUT);
+	}
+	if ((dresser->obj || dresser->glb) &&
+	    !garment_write(session, dresser->obj, dresser->glb, dresser->fault))
+		return complain(dresser, STATUS_MACHINE);
+	if (dresser->body_obj &&
+	    !character_write_obj(&session->body, dresser->body_obj, dresser->fault))
+		return complain(dresser, STATUS_MACHINE);
+	if (dresser->report &&
+	    !report_write(session, &dresser->clock, &measure, dresser->report, dresser->fault))
+		return complain(dresser, STATUS_MACHINE);
+	if (dresser->picture && !write_picture(dresser))
+		return complain(dresser, STATUS_MACHINE);
+	return STATUS_DONE;
+}
+
+static int dress(struct dresser *dresser)
+{
+	if (!dresser_open(dresser))
+		return complain(dresser, STATUS_MACHINE);
+	if (!run_journal(dresser))
+		return complain(dresser, STATUS_INPUT);
+	int status = write_results(dresser);
+	if (status == STATUS_DONE) {
+		printf("hash %016llx\n", (unsigned long long)session_hash(dresser->session));
+		status = dresser->refused ? STATUS_INPUT : STATUS_DONE;
+	}
+	return status;
+}
+
+int command_dress(int argc, char **argv)
+{
+	struct dresser dresser = {0};
+	const char *files[OPTION_FILES_MAX];
+	int count;
+	const struct option_value known[] = {
+		{"--obj", NULL, &dresser.obj, NULL},
+		{"--glb", NULL, &dresser.glb, NULL},
+		{"--picture", NULL, &dresser.picture, NULL},
+		{"--report", NULL, &dresser.report, NULL},
+		{"--body", NULL, &dresser.body, NULL},
+		{"--body-obj", NULL, &dresser.body_obj, NULL},
+		{"--progress", &dresser.progress, NULL, NULL},
+		{NULL, NULL, NULL, NULL},
+	};
+	if (!options_read(argc, argv, known, files, &count) || count != 1) {
+		fputs(usage, stderr);
+		return STATUS_USAGE;
+	}
+	dresser.journal = files[0];
+	dresser.progress = dresser.progress || isatty(STDERR_FILENO);
+	int status = dress(&dresser);
+	dresser_close(&dresser);
+	return status;
+}
