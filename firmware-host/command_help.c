@@ -1,0 +1,208 @@
+/* kitsuke help [TOPIC]: what the program itself knows better than any page about it. */
+#include "commands.h"
+
+#include "kiosk.h"
+#include "measure.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+static void help_commands(void)
+{
+	puts("kitsuke dresses a figure: draw cloth, mark it and the body, press WRAP.\n"
+	     "\n"
+	     "  kitsuke [--board FILE]        the station: on a free display, else in a window\n"
+	     "  kitsuke replay TAPE... --out DIR [--no-pictures] [--pictures-every N]\n"
+	     "                 [--body FILE] [--samples] [--jitter-mm N --seed N]\n"
+	     "                                plays recorded raw input headless\n"
+	     "  kitsuke dress JOURNAL [--obj FILE] [--glb FILE] [--picture FILE] [--report FILE]\n"
+	     "                 [--body FILE] [--body-obj FILE] [--progress]\n"
+	     "                                runs a document without input devices\n"
+	     "  kitsuke check FILE...         are these bodies, journals and tapes sound?\n"
+	     "  kitsuke record --out TAPE     records attached tablets and buttons\n"
+	     "  kitsuke devices [--descriptor FILE]\n"
+	     "                                what is attached, and what a descriptor yields\n"
+	     "  kitsuke help [journal|tape|limits]\n"
+	     "\n"
+	     "Exit status: 0 done, 1 the input is at fault, 2 usage, 3 the machine is at fault.");
+}
+
+/* ---- journal ---- */
+
+struct edit_help {
+	const char *arguments, *meaning;
+};
+
+static const struct edit_help edit_help[EDIT_KIND_COUNT] = {
+	[EDIT_BODY] = {"NAME", "who is dressed: mannequin, or an OBJ file beside the journal"},
+	[EDIT_PIECE] = {"NAME SWATCH OVER X Y TURN OUTLINE", "a new piece, local outline, OVER 1: "
+							     "inside up; X Y mm, TURN rad"},
+	[EDIT_OUTLINE] = {"PIECE OUTLINE", "a piece gets this outline"},
+	[EDIT_PLACE] = {"PIECE OVER X Y TURN", "where a piece lies on the sheet, which side up"},
+	[EDIT_COPY] = {"PIECE X Y", "a copy, X Y mm aside"},
+	[EDIT_MIRROR] = {"PIECE", "its shape becomes its mirror image"},
+	[EDIT_DELETE] = {"PIECE", "away with it, its seams and its marks"},
+	[EDIT_SWATCH] = {"PIECE SWATCH", "another cloth"},
+	[EDIT_SEW] = {"PIECE EDGE PIECE EDGE SWAPPED", "sews two edges; the start of one meets "
+						       "the end of the other, or its start if "
+						       "SWAPPED is 1"},
+	[EDIT_UNSEW] = {"SEAM", "opens a seam"},
+	[EDIT_MARK_CLOTH] = {"NUMBER PIECE X Y ...", "a line on the cloth, mm on the piece"},
+	[EDIT_MARK_BODY] = {"NUMBER X Y Z ...", "a line on the body, m; snaps to the surface"},
+	[EDIT_UNMARK] = {"SIDE NUMBER", "erases a mark; SIDE 0 cloth, 1 body"},
+	[EDIT_WRAP] = {"", "lays the garment on the body, equal numbers together"},
+	[EDIT_GRAB] = {"PIECE X Y", "takes hold of a cloth point, mm on the piece"},
+	[EDIT_DRAG] = {"X Y Z", "pulls it there, m"},
+	[EDIT_RELEASE] = {"", "lets go"},
+	[EDIT_PIN] = {"PIECE X Y", "holds a cloth point where it is"},
+	[EDIT_UNPIN] = {"PIN", "takes a pin out"},
+	[EDIT_RELAX] = {"ON", "1: the cloth finds its own shape, 0: no longer"},
+	[EDIT_UNDO] = {"", "one step back"},
+	[EDIT_REDO] = {"", "and forward again"},
+	[EDIT_CLEAR] = {"", "starts over; can be undone"},
+	[EDIT_BUDGET] = {"UNITS", "work units a frame from here on"},
+	[EDIT_STEP] = {"FRAMES", "so many frames pass"},
+	[EDIT_SETTLE] = {"", "frames pass until the wrap is done and the cloth rests"},
+};
+
+static void help_journal(void)
+{
+	puts("A journal is the save file, the undo history, a script and a crash report: text, "
+	     "one\n"
+	     "edit a line, played from the top. Pieces, seams and pins count from 0 in the order "
+	     "in\nwhich they were made (freed places are used again).\n"
+	     "\n"
+	     "  " JOURNAL_HEADER "  # a comment\n"
+	     "  piece front 0 0 0 0 0  -200 -300 1  200 -300 1  200 300 1  -200 300 1\n"
+	     "\n"
+	     "An OUTLINE is a list of X Y CORNER (mm, y up, counter-clockwise seen from the "
+	     "outside;\nCORNER 1 where one edge ends and the next begins, else 0; edge 0 starts at "
+	     "the first\ncorner). A line may end in *XXXXXXXX, its checksum (FNV-1a, 32 bit, of "
+	     "all "
+	     "before the\nblanks in front of it): the station writes one, a person need not.\n");
+	for (int kind = 0; kind < EDIT_KIND_COUNT; kind++)
+		printf("  %s %s\n      %s\n", edit_word[kind], edit_help[kind].arguments,
+		       edit_help[kind].meaning);
+}
+
+/* ---- limits ---- */
+
+struct bill {
+	struct arena arena;
+	size_t counted;
+};
+
+/* What the last step took. */
+static void print_share(struct bill *bill, const char *what)
+{
+	printf("  %-34s %9.2f MB\n", what, (double)(bill->arena.used - bill->counted) / 1e6);
+	bill->counted = bill->arena.used;
+}
+
+static void print_memory(void *memory)
+{
+	static struct session session;
+	static struct kiosk kiosk;
+	struct bill bill = {.counted = 0};
+	arena_init(&bill.arena, memory, KIOSK_MEMORY_BYTES);
+	body_init(&session.body, &bill.arena);
+	print_share(&bill, "body and its tree");
+	garment_init(&session.garment, &bill.arena);
+	garment_job_init(&bill.arena);
+	print_share(&bill, "garment and its mesher");
+	cloth_init(&session.cloth, &bill.arena);
+	print_share(&bill, "cloth and its constraints");
+	wrap_init(&session.wrap, &bill.arena);
+	drag_init(&session.drag, &bill.arena);
+	print_share(&bill, "wrap and drag");
+	size_t parts = bill.arena.used;
+	arena_init(&bill.arena, memory, KIOSK_MEMORY_BYTES);
+	bill.counted = parts;
+	session_init(&session, &bill.arena);
+	print_share(&bill, "undo and the rest of a session");
+	bill.counted = bill.arena.used;
+	kiosk_init(&kiosk, memory, 1920, 1080);
+	bill.arena = kiosk.arena;
+	print_share(&bill, "a frame's journal lines");
+	printf("  %-34s %9.2f MB\n", "taken at start, in one block", (double)bill.arena.used / 1e6);
+	printf("  %-34s %9.2f MB\n", "of a block of", (double)KIOSK_MEMORY_BYTES / 1e6);
+	printf("  %-34s %9.2f MB\n", "and outside it, the kiosk itself",
+	       (double)sizeof(struct kiosk) / 1e6);
+}
+
+static int help_limits(void)
+{
+	static const struct {
+		const char *what;
+		int limit;
+	} capacity[] = {
+		{"pieces of a pattern", PIECES_MAX},
+		{"outline points of a piece", OUTLINE_POINTS_MAX},
+		{"seams", SEAMS_MAX},
+		{"marks on the cloth, on the body", MARKS_MAX},
+		{"points of a mark", MARK_POINTS_MAX},
+		{"pins", PINS_MAX},
+		{"vertices of a garment", GARMENT_VERTICES_MAX},
+		{"triangles of a garment", GARMENT_TRIANGLES_MAX},
+		{"vertices of a body", BODY_VERTICES_MAX},
+		{"triangles of a body", BODY_TRIANGLES_MAX},
+		{"bones of a body", BODY_BONES_MAX},
+		{"undo steps", UNDO_STATES_MAX},
+		{"pen samples of a stroke", STROKE_SAMPLES_MAX},
+		{"reports of a frame", FRAME_REPORTS_MAX},
+		{"frames a second", FRAME_RATE_HZ},
+	};
+	void *memory = malloc(KIOSK_MEMORY_BYTES);
+	if (!memory) {
+		fputs("kitsuke help: not enough memory to make out the bill\n", stderr);
+		return STATUS_MACHINE;
+	}
+	puts("At most:");
+	for (int i = 0; i < COUNT_OF(capacity); i++)
+		printf("  %-34s %9d\n", capacity[i].what, capacity[i].limit);
+	puts("\nMemory:");
+	print_memory(memory);
+	free(memory);
+	return STATUS_DONE;
+}
+
+/* ---- tape ---- */
+
+static void help_tape(void)
+{
+	puts("A tape is recorded raw input as hid-recorder text, so that hid-replay of hid-tools\n"
+	     "plays it too. What only kitsuke needs stands in comments:\n"
+	     "\n"
+	     "  # kitsuke-tape 1\n"
+	     "  # board 1920 1080              the screen that the pen was mapped to, pixels\n"
+	     "  # budget 600000                work units a frame\n"
+	     "  # frames 2700                  length in frames of 1/60 s\n"
+	     "  # tablet 0 203.2 127           size of device 0 in mm, if its descriptor is "
+	     "silent\n"
+	     "  D: 0                           the lines that follow are device 0's\n"
+	     "  R: 234 05 0d 09 02 ...         report descriptor: length, bytes\n"
+	     "  N: name                        I: bus vendor product\n"
+	     "  E: 000001.230000 10 02 e0 ...  report: seconds, length, bytes\n"
+	     "  # unplug 0 at 000002.000000\n"
+	     "\n"
+	     "The three buttons are a device of their own whose report is one byte: bit 0 WRAP,\n"
+	     "bit 1 PIN, bit 2 RELAX. An event at time t belongs to frame floor(60 t).");
+}
+
+int command_help(int argc, char **argv)
+{
+	const char *topic = argc > 1 ? argv[1] : "commands";
+	if (argc <= 2 && strcmp(topic, "commands") == 0)
+		help_commands();
+	else if (argc <= 2 && strcmp(topic, "journal") == 0)
+		help_journal();
+	else if (argc <= 2 && strcmp(topic, "tape") == 0)
+		help_tape();
+	else if (argc <= 2 && strcmp(topic, "limits") == 0)
+		return help_limits();
+	else {
+		fputs("usage: kitsuke help [commands|journal|tape|limits]\n", stderr);
+		return STATUS_USAGE;
+	}
+	return STATUS_DONE;
+}
