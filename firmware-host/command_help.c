@@ -120,7 +120,6 @@ static void print_memory(void *memory)
 	bill.counted = parts;
 	session_init(&session, &bill.arena);
 	print_share(&bill, "undo and the rest of a session");
-	bill.counted = bill.arena.used;
 	kiosk_init(&kiosk, memory, 1920, 1080);
 	bill.arena = kiosk.arena;
 	print_share(&bill, "a frame's journal lines");

@@ -1,0 +1,356 @@
+/* kitsuke replay TAPE...: recorded raw input, headless, through the very code the station runs. */
+#include "commands.h"
+
+#include "character.h"
+#include "garment_file.h"
+#include "jitter.h"
+#include "kiosk.h"
+#include "options.h"
+#include "picture.h"
+#include "report.h"
+#include "snapshot.h"
+#include "tape.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+enum {
+	SCREEN_WIDTH = 1280, /* where the tape does not say */
+	SCREEN_HEIGHT = 720,
+	PICTURES_WANTED = 24, /* where --pictures-every does not say */
+	CELL_WIDTH = 480,
+	PROGRESS_FRAMES = 30,
+};
+
+static const char usage[] =
+	"usage: kitsuke replay TAPE... --out DIR [--no-pictures] [--pictures-every FRAMES]\n"
+	"                      [--body FILE|mannequin] [--jitter-mm N] [--seed N]\n"
+	"       kitsuke replay TAPE... --samples\n";
+
+struct replay {
+	const char *tape_path, *out, *body;
+	bool no_pictures, samples, progress;
+	long pictures_every, jitter_mm, seed;
+	struct tape tape;
+	size_t cursor; /* into the tape's events */
+	int frame_count;
+	void *memory;
+	struct kiosk *kiosk;
+	struct frame_reports *reports;
+	struct jitter jitter;
+	struct frame_clock clock;
+	FILE *journal; /* in memory until the end */
+	char *journal_text;
+	size_t journal_size;
+	struct snapshot snapshot;
+	struct contact_sheet contact;
+	char fault[FAULT_BYTES];
+};
+
+static int complain(const struct replay *replay, enum exit_status status)
+{
+	fprintf(stderr, "kitsuke replay: %s\n", replay->fault);
+	return status;
+}
+
+/* ---- start ---- */
+
+static bool load_tape(struct replay *replay)
+{
+	size_t size;
+	char wrong[200];
+	char *text = store_read(replay->tape_path, &size, replay->fault);
+	if (!text)
+		return false;
+	bool read = tape_read(&replay->tape, text, size, wrong);
+	free(text);
+	if (!read) {
+		snprintf(replay->fault, FAULT_BYTES, "%.250s: %s", replay->tape_path, wrong);
+		return false;
+	}
+	replay->cursor = 0;
+	replay->frame_count = replay->tape.frame_count;
+	if (replay->tape.width_px == 0) {
+		replay->tape.width_px = SCREEN_WIDTH;
+		replay->tape.height_px = SCREEN_HEIGHT;
+	}
+	return true;
+}
+
+static void learn_devices(struct replay *replay, struct pen *pen)
+{
+	for (int d = 0; d < TAPE_DEVICES_MAX; d++) {
+		const struct tape_device *device = &replay->tape.device[d];
+		if (!device->used)
+			continue;
+		pen_describe(pen, d, device->descriptor, device->descriptor_size);
+		if (pen->device[d].kind == DEVICE_UNKNOWN)
+			fprintf(stderr, "kitsuke replay: note: %s: device %d is not used: %s\n",
+				replay->tape_path, d, pen->device[d].reason);
+	}
+}
+
+static bool start_kiosk(struct replay *replay)
+{
+	char note[FAULT_BYTES];
+	struct kiosk *kiosk = replay->kiosk;
+	const char *name = replay->body ? replay->body : CHARACTER_MANNEQUIN;
+	kiosk_init(kiosk, replay->memory, replay->tape.width_px, replay->tape.height_px);
+	if (!character_load(&kiosk->session.body, name, NULL, note, replay->fault))
+		return false;
+	if (note[0])
+		fprintf(stderr, "kitsuke replay: note: %s\n", note);
+	if (replay->tape.budget_units > 0)
+		kiosk->session.budget_units = replay->tape.budget_units;
+	kiosk_body_named(kiosk, store_name(name));
+	learn_devices(replay, &kiosk->pen);
+	jitter_init(&replay->jitter, (float)replay->jitter_mm, (uint32_t)replay->seed);
+	return true;
+}
+
+static bool open_pictures(struct replay *replay)
+{
+	if (replay->no_pictures)
+		return true;
+	if (replay->pictures_every == 0)
+		replay->pictures_every = int_max(1, replay->frame_count / PICTURES_WANTED);
+	long count = replay->frame_count / replay->pictures_every + 2;
+	if (!snapshot_open(&replay->snapshot, replay->tape.width_px, replay->tape.height_px,
+			   replay->fault))
+		return false;
+	int sheet = count < CONTACT_FRAMES_MAX ? (int)count : CONTACT_FRAMES_MAX;
+	if (contact_open(&replay->contact, sheet, replay->snapshot.width, replay->snapshot.height,
+			 CELL_WIDTH))
+		return true;
+	snprintf(replay->fault, FAULT_BYTES, "not enough memory for the contact sheet");
+	return false;
+}
+
+/* ---- the run ---- */
+
+/* The frame's raw input, as the tape has it or as a trembling hand would have made it. */
+static unsigned next_reports(struct replay *replay, int frame)
+{
+	unsigned unplugged = tape_frame(&replay->tape, frame, &replay->cursor, replay->reports);
+	if (replay->jitter_mm > 0)
+		jitter_frame(&replay->jitter, &replay->kiosk->pen, replay->reports);
+	return unplugged;
+}
+
+static void show_progress(const struct replay *replay, int frame)
+{
+	bool last = frame == replay->frame_count;
+	if (replay->progress && (last || frame % PROGRESS_FRAMES == 0))
+		fprintf(stderr, "\r%s: frame %d of %d%s", store_name(replay->tape_path), frame,
+			replay->frame_count, last ? "\n" : "");
+}
+
+static bool take_picture(struct replay *replay, int frame)
+{
+	char path[PATH_BYTES_MAX], name[64], caption[CAPTION_BYTES_MAX];
+	struct snapshot *shot = &replay->snapshot;
+	const struct session *session = &replay->kiosk->session;
+	snprintf(name, sizeof name, "frame-%06d.png", frame);
+	snprintf(caption, sizeof caption, "%d.%02d s  %d vertices", frame / FRAME_RATE_HZ,
+		 frame % FRAME_RATE_HZ * 100 / FRAME_RATE_HZ, session->garment.vertex_count);
+	snapshot_take(shot, &replay->kiosk->ui, session);
+	contact_add(&replay->contact, shot->width, shot->height, shot->rgba, caption);
+	return store_join(path, sizeof path, replay->out, name, replay->fault) &&
+	       picture_write_png(path, shot->width, shot->height, shot->rgba, replay->fault);
+}
+
+static bool run_frame(struct replay *replay, int frame)
+{
+	struct kiosk *kiosk = replay->kiosk;
+	unsigned unplugged = next_reports(replay, frame);
+	frame_clock_begin(&replay->clock, &kiosk->session);
+	kiosk_frame(kiosk, replay->reports, unplugged);
+	frame_clock_end(&replay->clock, &kiosk->session);
+	fwrite(kiosk->journal, 1, (size_t)kiosk->journal_size, replay->journal);
+	show_progress(replay, frame + 1);
+	bool last = frame + 1 == replay->frame_count;
+	if (replay->no_pictures || (!last && (frame + 1) % replay->pictures_every != 0))
+		return true;
+	return take_picture(replay, frame + 1);
+}
+
+static bool run(struct replay *replay)
+{
+	fputs(JOURNAL_HEADER, replay->journal);
+	for (int frame = 0; frame < replay->frame_count; frame++)
+		if (!run_frame(replay, frame))
+			return false;
+	kiosk_finish(replay->kiosk);
+	fwrite(replay->kiosk->journal, 1, (size_t)replay->kiosk->journal_size, replay->journal);
+	return true;
+}
+
+/* ---- what comes out ---- */
+
+static bool write_journal(struct replay *replay, const char *path)
+{
+	if (fflush(replay->journal) != 0) {
+		snprintf(replay->fault, FAULT_BYTES, "not enough memory for the journal");
+		return false;
+	}
+	return store_write(path, replay->journal_text, replay->journal_size, replay->fault);
+}
+
+static bool write_results(struct replay *replay)
+{
+	enum { JOURNAL, REPORT, OBJ, GLB, CONTACT, OUTPUT_COUNT };
+	static const char *const name[OUTPUT_COUNT] = {"journal.kitsuke", "report.json",
+						       "garment.obj", "garment.glb", "contact.png"};
+	static char path[OUTPUT_COUNT][PATH_BYTES_MAX];
+	struct session *session = &replay->kiosk->session;
+	struct measure measure;
+	for (int i = 0; i < OUTPUT_COUNT; i++)
+		if (!store_join(path[i], PATH_BYTES_MAX, replay->out, name[i], replay->fault))
+			return false;
+	if (!write_journal(replay, path[JOURNAL]) ||
+	    !report_write(session, &replay->clock, &measure, path[REPORT], replay->fault))
+		return false;
+	if (session->cloth.worn && !garment_write(session, path[OBJ], path[GLB], replay->fault))
+		return false;
+	if (!session->cloth.worn)
+		fprintf(stderr, "kitsuke replay: note: %s: ends without a garment on the body\n",
+			replay->tape_path);
+	return replay->no_pictures ||
+	       contact_finish(&replay->contact, path[CONTACT], replay->fault);
+}
+
+/* ---- samples ---- */
+
+static void print_sample(int frame, const struct pen_sample *sample, uint8_t buttons)
+{
+	static const char *const state[] = {"away", "hover", "touch"};
+	printf("{\"frame\": %d, \"time_us\": %lld, \"state\": \"%s\", \"x_px\": %.3f, "
+	       "\"y_px\": %.3f, \"pressure\": %.4f, \"tilt_x_rad\": %.4f, \"tilt_y_rad\": %.4f, "
+	       "\"eraser\": %s, \"barrel\": %s, \"buttons\": %d}\n",
+	       frame, (long long)sample->time_us, state[sample->state],
+	       (double)sample->position_px.x, (double)sample->position_px.y,
+	       (double)sample->pressure, (double)sample->tilt_rad.x, (double)sample->tilt_rad.y,
+	       sample->eraser ? "true" : "false", sample->barrel ? "true" : "false", buttons);
+}
+
+/* The pen alone: what the rest of the program would be told. */
+static void print_samples(struct replay *replay)
+{
+	struct pen *pen = &replay->kiosk->pen;
+	pen_init(pen, replay->tape.width_px, replay->tape.height_px);
+	learn_devices(replay, pen);
+	jitter_init(&replay->jitter, (float)replay->jitter_mm, (uint32_t)replay->seed);
+	for (int frame = 0; frame < replay->frame_count; frame++) {
+		struct frame_input input = {0};
+		int64_t now_us = (int64_t)(frame + 1) * 1000000 / FRAME_RATE_HZ;
+		unsigned unplugged = next_reports(replay, frame);
+		pen_read(pen, replay->reports, now_us, &input);
+		for (int device = 0; device < PEN_DEVICES_MAX; device++)
+			if (unplugged >> device & 1)
+				pen_unplugged(pen, device, &input);
+		for (int s = 0; s < input.sample_count; s++)
+			print_sample(frame, &input.sample[s], input.buttons_held);
+	}
+}
+
+/* ---- a tape from end to end ---- */
+
+static bool take_memory(struct replay *replay)
+{
+	replay->memory = malloc(KIOSK_MEMORY_BYTES);
+	replay->kiosk = calloc(1, sizeof *replay->kiosk);
+	replay->reports = calloc(1, sizeof *replay->reports);
+	replay->journal = open_memstream(&replay->journal_text, &replay->journal_size);
+	bool taken = replay->memory && replay->kiosk && replay->reports && replay->journal &&
+		     frame_clock_open(&replay->clock);
+	if (!taken)
+		snprintf(replay->fault, FAULT_BYTES, "not enough memory to start");
+	return taken;
+}
+
+static void give_memory(struct replay *replay)
+{
+	contact_finish(&replay->contact, NULL, replay->fault);
+	snapshot_close(&replay->snapshot);
+	frame_clock_close(&replay->clock);
+	if (replay->journal)
+		fclose(replay->journal);
+	free(replay->journal_text);
+	free(replay->reports);
+	free(replay->kiosk);
+	free(replay->memory);
+	tape_free(&replay->tape);
+}
+
+static int replay_tape(struct replay *replay)
+{
+	if (!load_tape(replay))
+		return complain(replay, STATUS_INPUT);
+	if (!take_memory(replay))
+		return complain(replay, STATUS_MACHINE);
+	if (replay->samples) {
+		print_samples(replay);
+		return STATUS_DONE;
+	}
+	if (!start_kiosk(replay))
+		return complain(replay, STATUS_INPUT);
+	if (!store_make_folder(replay->out, replay->fault) || !open_pictures(replay) ||
+	    !run(replay) || !write_results(replay))
+		return complain(replay, STATUS_MACHINE);
+	printf("hash %016llx  %s\n", (unsigned long long)session_hash(&replay->kiosk->session),
+	       replay->tape_path);
+	return STATUS_DONE;
+}
+
+/* Several tapes get a folder each in DIR, named after the tape. */
+static int replay_one_of(const struct replay *common, const char *path, bool alone)
+{
+	static struct replay replay;
+	char folder[PATH_BYTES_MAX], name[256];
+	replay = *common;
+	replay.tape_path = path;
+	if (!alone && !replay.samples) {
+		snprintf(name, sizeof name, "%.250s", store_name(path));
+		char *dot = strrchr(name, '.');
+		if (dot && dot != name)
+			*dot = 0;
+		if (!store_make_folder(replay.out, replay.fault) ||
+		    !store_join(folder, sizeof folder, replay.out, name, replay.fault))
+			return complain(&replay, STATUS_MACHINE);
+		replay.out = folder;
+	}
+	int status = replay_tape(&replay);
+	give_memory(&replay);
+	return status;
+}
+
+int command_replay(int argc, char **argv)
+{
+	static struct replay common;
+	const char *files[OPTION_FILES_MAX];
+	int count;
+	common.seed = 1;
+	const struct option_value known[] = {
+		{"--out", NULL, &common.out, NULL},
+		{"--body", NULL, &common.body, NULL},
+		{"--no-pictures", &common.no_pictures, NULL, NULL},
+		{"--samples", &common.samples, NULL, NULL},
+		{"--pictures-every", NULL, NULL, &common.pictures_every},
+		{"--jitter-mm", NULL, NULL, &common.jitter_mm},
+		{"--seed", NULL, NULL, &common.seed},
+		{NULL, NULL, NULL, NULL},
+	};
+	if (!options_read(argc, argv, known, files, &count) || count == 0 ||
+	    (!common.out && !common.samples)) {
+		fputs(usage, stderr);
+		return STATUS_USAGE;
+	}
+	common.progress = isatty(STDERR_FILENO);
+	int status = STATUS_DONE;
+	for (int i = 0; i < count; i++) {
+		int one = replay_one_of(&common, files[i], count == 1);
+		status = one > status ? one : status;
+	}
+	return status;
+}
