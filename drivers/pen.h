@@ -1,8 +1,11 @@
 /* Pen tablets and buttons: raw HID reports become pen samples and button masks.
  *
- *   report descriptor --pen_describe--> layout      (pen_descriptor.c, pure)
- *   raw report        --pen_read-----> pen sample   (pen_report.c: fields; pen_state.c: contact,
- *                                                    filter, mapping; pure)
+ *   report descriptor --pen_describe--> layouts      (pen_descriptor.c)
+ *   raw report        --pen_report_read--> fields    (pen_report.c)
+ *   fields            --pen_read--> pen sample       (pen.c: contact; pen_filter.c: filter,
+ * mapping)
+ *
+ * All of it is pure: no heap, no clock, no files, src's arithmetic only.
  */
 #ifndef PEN_H
 #define PEN_H
@@ -30,6 +33,12 @@ struct pen_layout {
 	float tilt_unit_rad;       /* one logical unit of tilt */
 };
 
+/* One report's fields as they stand in it, before anything is made of them. */
+struct pen_fields {
+	int x, y, pressure, tilt_x, tilt_y, twist; /* logical units */
+	bool tip, in_range, invert, eraser, barrel, barrel_2;
+};
+
 enum device_kind {
 	DEVICE_UNKNOWN,
 	DEVICE_PEN,
@@ -40,24 +49,35 @@ struct pen_device {
 	enum device_kind kind;
 	int layout_count;
 	struct pen_layout layout[PEN_REPORTS_MAX];
-	char reason[160]; /* DEVICE_UNKNOWN: why, in words */
-	/* contact, filter and mapping state follows */
+	char reason[160];          /* DEVICE_UNKNOWN: why, in words */
+	float width_mm, height_mm; /* as told by pen_resize; 0: what the layout says */
+	uint8_t buttons_held;      /* DEVICE_BUTTONS */
+	long dropped;              /* reports too short for their layout */
+
+	/* contact: the state, and what ends it */
 	enum pen_state state;
-	int64_t last_us, contact_us;
-	struct v2 filtered_mm, speed_mm_s;
-	struct v2 last_px;
-	float pressure;
-	bool moved; /* a first sample has been seen since proximity began */
+	int64_t last_us;    /* of the last report with a position */
+	int64_t silence_us; /* so long after motion, and the pen is gone */
+	bool never_silent;
+	int contact_reports; /* since the tip went down */
+
+	/* filter */
+	struct v2 raw_mm, filtered_mm, speed_mm_s;
+	struct v2 suspect_mm; /* a jump that the next report must confirm */
+	bool suspected, placed;
+
+	struct pen_sample last; /* the last sample given */
 };
 
-/* How tablet millimetres become screen pixels: one scale, the larger axis letter-boxed. */
+/* How tablet millimetres become screen pixels: one scale, so that a circle stays a circle. The
+ * whole screen can be reached; what is over of the tablet's longer axis stays unused. */
 struct pen_mapping {
 	int width_px, height_px;
 };
 
 struct pen {
 	struct pen_mapping mapping;
-	uint8_t buttons_held;
+	int touching; /* the device whose tip is down, others must wait; -1: none */
 	struct pen_device device[PEN_DEVICES_MAX];
 };
 
@@ -66,16 +86,27 @@ void pen_init(struct pen *pen, int width_px, int height_px);
 /* Learns a device from its report descriptor. Any bytes are safe. */
 void pen_describe(struct pen *pen, int device, const uint8_t *descriptor, int size);
 
+/* The tablet's active area in mm, where the descriptor does not tell it or tells it wrong; 0, 0
+ * goes back to the descriptor. */
+void pen_resize(struct pen *pen, int device, float width_mm, float height_mm);
+
 /* Reads a descriptor only: the layouts of every pen report in it; returns their number, 0 with the
  * reason in words when there is no pen. */
 int pen_descriptor_read(const uint8_t *descriptor, int size,
 			struct pen_layout layout[PEN_REPORTS_MAX], char reason[160]);
 
+/* The layout that this report has, and its fields; NULL when it is no pen's report or is cut off
+ * (*cut_off). */
+const struct pen_layout *pen_report_read(const struct pen_layout *layout, int layout_count,
+					 const uint8_t *bytes, int size, struct pen_fields *fields,
+					 bool *cut_off);
+
 /* A device went away: a stroke in progress ends with a sample of its own. */
 void pen_unplugged(struct pen *pen, int device, struct frame_input *input);
 
 /* One frame's reports to samples and button masks; `now_us` is the frame's end and lets time-outs
- * end strokes that the pen never ended. Adds to input (zeroed by the caller). */
+ * end strokes that the pen never ended. Adds to input (zeroed by the caller). Every pen report
+ * gives one sample; while one pen touches, the reports of others are left out. */
 void pen_read(struct pen *pen, const struct frame_reports *reports, int64_t now_us,
 	      struct frame_input *input);
 

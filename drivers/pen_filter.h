@@ -1,0 +1,27 @@
+/* Pen positions: logical units to millimetres, jumps held back, jitter taken out, pixels. Private
+ * to the pen module. */
+#ifndef PEN_FILTER_H
+#define PEN_FILTER_H
+
+#include "pen.h"
+
+/* Millimetres on the tablet from its upper left corner. */
+struct v2 pen_place_mm(const struct pen *pen, const struct pen_device *device,
+		       const struct pen_layout *layout, const struct pen_fields *fields);
+
+/* Millimetres to screen pixels, kept on the screen. */
+struct v2 pen_mm_to_px(const struct pen *pen, const struct pen_device *device,
+		       const struct pen_layout *layout, struct v2 mm);
+
+/* Is the next position a jump that no hand makes? Then the last one holds until a second report
+ * confirms the jump. */
+bool pen_jump_held(struct pen_device *device, struct v2 mm, int64_t dt_us);
+
+/* Begins anew at a position: proximity has just begun, or a jump was confirmed. */
+void pen_filter_reset(struct pen_device *device, struct v2 mm);
+
+/* The 1-euro filter (Casiez, Roussel and Vogel, CHI 2012), in mm. While the pen moves, the result
+ * is at most one report behind. */
+struct v2 pen_filter(struct pen_device *device, struct v2 mm, int64_t dt_us);
+
+#endif
