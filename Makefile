@@ -56,7 +56,7 @@ TESTS := $(patsubst %.c,$(B)/%,$(wildcard tests/test_*.c))
 TEST_SCRIPTS := $(wildcard tests/test_*.sh)
 BENCH := $(patsubst %.c,$(B)/%,$(wildcard tests/bench_*.c))
 FUZZ  := $(patsubst %.c,$(B)/%,$(wildcard tests/fuzz_*.c))
-TOOLS := $(patsubst %.c,$(B)/%,$(wildcard tests/hand.c))
+TOOLS := $(patsubst %.c,$(B)/%,$(wildcard tests/hand.c tests/measure_sections.c))
 ALL   := $(LIB) $(MAIN) $(call sources,tests)
 DATA  := $(wildcard tests/tapes/* tests/journals/*)
 
