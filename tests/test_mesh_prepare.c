@@ -58,6 +58,10 @@ static void check_cube(struct mesh *mesh, const char *expected_note)
 	CHECK(mesh->vertex_count == 8 && mesh->triangle_count == 12);
 	CHECK(closed_and_consistent(mesh));
 	CHECK_NEAR(volume_m3(mesh), 1.6 * 1.6 * 1.6, 1e-4);
+	float floor_m = 1.0f;
+	for (int v = 0; v < mesh->vertex_count; v++)
+		floor_m = float_min(floor_m, mesh->position_m[v].y);
+	CHECK_NEAR(floor_m, 0.0, 1e-5);
 	mesh_free(mesh);
 }
 
