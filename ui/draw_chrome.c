@@ -1,0 +1,254 @@
+/* Bars, buttons, hint, swatches: one picture as large as the screen, of which only the items that
+ * look different from the last frame are drawn again. */
+#include "draw_button.h"
+#include "draw_layer.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { CLEAR_FRAMES = FRAME_RATE_HZ };
+
+struct chrome {
+	struct layer layer;
+	struct type *type;
+	cairo_surface_t *surface;
+	cairo_t *cr;
+	double unit;                /* pixels for a pixel at 1080 lines */
+	uint64_t whole;             /* what the layout looked like; 0: nothing drawn yet */
+	uint64_t drawn[ITEM_COUNT]; /* what each item looked like */
+};
+
+static bool looks_from(const struct view *view, enum target target)
+{
+	float s = angle_sin(0.5f * PI_F * (float)(target - TARGET_VIEW_FRONT));
+	float c = angle_cos(0.5f * PI_F * (float)(target - TARGET_VIEW_FRONT));
+	const struct m3 *turn = &view->turn;
+	return turn->row[2].x * s + turn->row[2].z * c > 0.97f && turn->row[1].y > 0.97f;
+}
+
+static bool is_on(const struct ui *ui, enum target target)
+{
+	if (target >= TARGET_STEP_DRAW && target <= TARGET_STEP_ADJUST)
+		return (int)ui->step == (int)target - TARGET_STEP_DRAW;
+	if (target >= TARGET_VIEW_FRONT && target <= TARGET_VIEW_BACK)
+		return looks_from(&ui->view, target);
+	if (target >= TARGET_SWATCH_0 && target <= TARGET_SWATCH_7)
+		return ui->swatch == (int)target - TARGET_SWATCH_0;
+	switch (target) {
+	case TARGET_LASER:
+		return ui->laser;
+	case TARGET_ERASE:
+		return ui->erase;
+	case TARGET_PIN:
+		return ui->pin_mode;
+	case TARGET_RELAX:
+		return ui->relax_held;
+	case TARGET_HAND:
+		return ui->left_handed;
+	default:
+		return false;
+	}
+}
+
+static struct face face_of(const struct ui *ui, const struct session *session, int item)
+{
+	struct face face;
+	memset(&face, 0, sizeof face);
+	if (item < TARGET_COUNT) {
+		enum target target = (enum target)item;
+		int since = ui->frame - ui->pulse[target];
+		face.useful = ui_useful(ui, session, target);
+		face.hover = ui->hover_target == target;
+		face.pressed = ui->gesture == GESTURE_TARGET && ui->pressed == target;
+		face.on = is_on(ui, target);
+		face.pulse = ui->pulse[target] && since < PULSE_FRAMES ? PULSE_FRAMES - since : 0;
+		face.progress = face.pressed ? int_min(ui->hold_frames * 100 / CLEAR_FRAMES, 100)
+					     : 0;
+	} else if (item == ITEM_HINT) {
+		face.notice = ui->notice != TEXT_NONE;
+		face.text = face.notice ? (enum text)ui->notice : text_hint(ui, session);
+	} else if (item == ITEM_METER) {
+		face.useful = session->cloth.worn;
+		face.progress = (int)(100.0f * float_clamp(session->strain_left, 0.0f, 1.0f));
+	}
+	return face;
+}
+
+static uint64_t face_hash(const struct face *face)
+{
+	struct hash hash;
+	hash_init(&hash);
+	hash_int(&hash, face->useful | face->hover << 1 | face->pressed << 2 | face->on << 3 |
+				face->notice << 4);
+	hash_int(&hash, face->pulse);
+	hash_int(&hash, face->progress);
+	hash_int(&hash, (int)face->text);
+	return hash.value;
+}
+
+/* ---- the layer ---- */
+
+static struct rect item_rect(const struct layout *layout, int item)
+{
+	if (item < TARGET_COUNT)
+		return layout->target[item];
+	if (item == ITEM_HINT)
+		return layout->hint;
+	if (item == ITEM_METER)
+		return layout->meter;
+	struct rect first = layout->target[TARGET_STEP_DRAW];
+	return (struct rect){0, 0, int_max(first.x - layout_px(layout, 8), 0), layout->bar.h};
+}
+
+/* The bar's colour where a bar is, nothing where a pane is. */
+static void draw_ground(const struct chrome *chrome, const struct layout *layout)
+{
+	cairo_t *cr = chrome->cr;
+	cairo_set_operator(cr, CAIRO_OPERATOR_SOURCE);
+	cairo_set_source_rgba(cr, 0.0, 0.0, 0.0, 0.0);
+	cairo_paint(cr);
+	cairo_set_operator(cr, CAIRO_OPERATOR_OVER);
+	cairo_rectangle(cr, layout->bar.x, layout->bar.y, layout->bar.w, layout->bar.h);
+	ink(cr, LOOK_NIGHT, 1.0);
+	cairo_fill(cr);
+	cairo_rectangle(cr, layout->bottom.x, layout->bottom.y, layout->bottom.w, layout->bottom.h);
+	ink(cr, LOOK_BAR, 1.0);
+	cairo_fill(cr);
+	int line = int_max(layout_px(layout, 2), 1);
+	cairo_rectangle(cr, layout->bottom.x, layout->bottom.y, layout->bottom.w, line);
+	ink(cr, LOOK_ROOM_DARK, 1.0);
+	cairo_fill(cr);
+}
+
+static void draw_item(const struct chrome *chrome, const struct ui *ui, int item,
+		      const struct face *face)
+{
+	struct brush brush = {chrome->cr, chrome->type, ui->language, chrome->unit};
+	struct rect rect = item_rect(&ui->layout, item);
+	cairo_save(chrome->cr);
+	cairo_rectangle(chrome->cr, rect.x, rect.y, rect.w, rect.h);
+	cairo_clip(chrome->cr);
+	draw_ground(chrome, &ui->layout);
+	draw_button(&brush, rect, face, item);
+	cairo_restore(chrome->cr);
+}
+
+static struct rect join(struct rect a, struct rect b)
+{
+	if (a.w == 0)
+		return b;
+	if (b.w == 0)
+		return a;
+	int right = int_max(a.x + a.w, b.x + b.w), bottom = int_max(a.y + a.h, b.y + b.h);
+	int x = int_min(a.x, b.x), y = int_min(a.y, b.y);
+	return (struct rect){x, y, right - x, bottom - y};
+}
+
+static void add_damage(struct layer *layer, struct rect rect)
+{
+	if (rect.w <= 0 || rect.h <= 0)
+		return;
+	if (layer->damage_count == LAYER_DAMAGE_MAX)
+		layer->damage[LAYER_DAMAGE_MAX - 1] = join(layer->damage[LAYER_DAMAGE_MAX - 1],
+							   rect);
+	else
+		layer->damage[layer->damage_count++] = rect;
+}
+
+static void add_patch(struct layer *layer, struct rect rect, bool opaque)
+{
+	if (rect.w > 0)
+		layer->patch[layer->patch_count++] = (struct patch){rect, opaque};
+}
+
+static void make_patches(struct layer *layer, const struct layout *layout)
+{
+	struct rect views = {0, 0, 0, 0}, swatches = {0, 0, 0, 0};
+	for (int i = TARGET_VIEW_FRONT; i <= TARGET_VIEW_BACK; i++)
+		views = join(views, layout->target[i]);
+	for (int i = TARGET_SWATCH_0; i <= TARGET_SWATCH_7; i++)
+		swatches = join(swatches, layout->target[i]);
+	layer->patch_count = 0;
+	add_patch(layer, layout->bar, true);
+	add_patch(layer, layout->bottom, true);
+	add_patch(layer, views, false);
+	add_patch(layer, layout->hint, false);
+	add_patch(layer, swatches, false);
+}
+
+static uint64_t layout_hash(const struct ui *ui)
+{
+	struct hash hash;
+	hash_init(&hash);
+	hash_int(&hash, (int)ui->step);
+	hash_int(&hash, (int)ui->language);
+	hash_int(&hash, ui->left_handed);
+	return hash.value;
+}
+
+const struct layer *chrome_update(struct chrome *chrome, const struct ui *ui,
+				  const struct session *session)
+{
+	struct layer *layer = &chrome->layer;
+	uint64_t whole = layout_hash(ui);
+	bool all = whole != chrome->whole;
+	layer->damage_count = 0;
+	if (all) {
+		draw_ground(chrome, &ui->layout);
+		make_patches(layer, &ui->layout);
+		for (int i = 0; i < layer->patch_count; i++)
+			add_damage(layer, layer->patch[i].area);
+	}
+	chrome->whole = whole;
+	for (int item = TARGET_NONE + 1; item < ITEM_COUNT; item++) {
+		struct rect rect = item_rect(&ui->layout, item);
+		struct face face = face_of(ui, session, item);
+		uint64_t hash = face_hash(&face);
+		if (rect.w == 0 || (!all && hash == chrome->drawn[item]))
+			continue;
+		draw_item(chrome, ui, item, &face);
+		chrome->drawn[item] = hash;
+		if (!all)
+			add_damage(layer, rect);
+	}
+	cairo_surface_flush(chrome->surface);
+	return layer;
+}
+
+struct chrome *chrome_open(int width, int height, char fault[200])
+{
+	struct chrome *chrome = calloc(1, sizeof *chrome);
+	struct type *type = type_open(fault);
+	if (!chrome || !type) {
+		if (!chrome)
+			snprintf(fault, 200, "no memory for the bars");
+		type_close(type);
+		free(chrome);
+		return NULL;
+	}
+	struct layout layout;
+	layout_make(&layout, width, height, STEP_DRAW, false);
+	chrome->type = type;
+	chrome->unit = (double)layout_px(&layout, 1000) / 1000.0;
+	chrome->surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height);
+	chrome->cr = cairo_create(chrome->surface);
+	if (cairo_status(chrome->cr) != CAIRO_STATUS_SUCCESS) {
+		snprintf(fault, 200, "no memory for the bars (%d x %d)", width, height);
+		chrome_close(chrome);
+		return NULL;
+	}
+	chrome->layer.area = (struct rect){0, 0, width, height};
+	chrome->layer.pixels = cairo_image_surface_get_data(chrome->surface);
+	chrome->layer.stride = cairo_image_surface_get_stride(chrome->surface);
+	return chrome;
+}
+
+void chrome_close(struct chrome *chrome)
+{
+	if (!chrome)
+		return;
+	cairo_destroy(chrome->cr);
+	cairo_surface_destroy(chrome->surface);
+	type_close(chrome->type);
+	free(chrome);
+}

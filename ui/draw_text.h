@@ -1,0 +1,94 @@
+/* Words and shapes on cairo: one typeface, two weights, and the few helpers that bars and sheet
+ * share. Drawing only; nothing that can be touched depends on what is measured here. */
+#ifndef DRAW_TEXT_H
+#define DRAW_TEXT_H
+
+#include "look.h"
+#include "text.h"
+
+#include <cairo.h>
+
+struct type;
+
+/* NULL with a line in fault when the typeface is missing. */
+struct type *type_open(char fault[200]);
+void type_close(struct type *type);
+
+enum align { ALIGN_LEFT, ALIGN_CENTRE };
+
+struct style {
+	double size_px;
+	bool bold;
+	uint32_t colour;
+	enum align align;
+	double width_max; /* made smaller to fit; 0: any width */
+};
+
+/* One line with its baseline at y. Returns its width. */
+double draw_text(cairo_t *cr, struct type *type, const char *text, double x, double y,
+		 const struct style *style);
+
+/* A phrase in the visitor's language: Japanese bold over English, or one of them alone, centred in
+ * height on the rectangle. */
+struct label {
+	double japanese_px, english_px;
+	uint32_t colour, colour_english;
+	enum align align;
+};
+void draw_phrase(cairo_t *cr, struct type *type, const struct phrase *phrase,
+		 enum language language, struct rect rect, const struct label *label);
+
+/* ---- cairo in our units ---- */
+
+static inline void ink(cairo_t *cr, uint32_t colour, double alpha)
+{
+	cairo_set_source_rgba(cr, (double)look_red(colour), (double)look_green(colour),
+			      (double)look_blue(colour), alpha);
+}
+
+static inline void line_to(cairo_t *cr, struct v2 point)
+{
+	cairo_line_to(cr, (double)point.x, (double)point.y);
+}
+
+static inline void move_to(cairo_t *cr, struct v2 point)
+{
+	cairo_move_to(cr, (double)point.x, (double)point.y);
+}
+
+static inline void disc(cairo_t *cr, double x, double y, double radius)
+{
+	cairo_new_sub_path(cr);
+	cairo_arc(cr, x, y, radius, 0.0, 6.283185307179586);
+}
+
+void round_box(cairo_t *cr, double x, double y, double w, double h, double radius);
+void round_rect(cairo_t *cr, struct rect rect, double radius);
+
+/* a towards b by t, channel by channel. */
+uint32_t colour_mix(uint32_t a, uint32_t b, double t);
+
+/* A mark's number in its filled circle, with a white rim; radius_px of the fill. */
+void draw_number(cairo_t *cr, struct type *type, int number, double x, double y, double radius_px,
+		 bool paired);
+
+/* The pictograms, drawn into a square of `size` about (x, y) with the current source. */
+enum icon {
+	ICON_SHIRT,
+	ICON_PIN,
+	ICON_WAVES,
+	ICON_LASER,
+	ICON_ERASER,
+	ICON_COPY,
+	ICON_TURN_OVER,
+	ICON_MIRROR,
+	ICON_BIN,
+	ICON_SWAP,
+	ICON_HAND,
+	ICON_AGAIN,
+	ICON_UNDO,
+	ICON_REDO,
+};
+void draw_icon(cairo_t *cr, enum icon icon, double x, double y, double size);
+
+#endif
