@@ -243,6 +243,18 @@ static double volume_of(const struct mesh *mesh, const struct triangle *triangle
 	return (double)v3_dot(a, v3_cross(b, c)) / 6.0;
 }
 
+/* Clearly so: two shells that cancel each other are not. */
+static bool inside_out(const struct mesh *mesh)
+{
+	double volume = 0.0, magnitude = 0.0;
+	for (int t = 0; t < mesh->triangle_count; t++) {
+		double part = volume_of(mesh, &mesh->triangle[t]);
+		volume += part;
+		magnitude += part < 0.0 ? -part : part;
+	}
+	return volume < -1e-3 * magnitude;
+}
+
 /* For each triangle and edge k the triangle across it, and whether that one must be flipped to run
  * with this one; -1 across open and crowded edges. */
 struct across {
@@ -352,10 +364,8 @@ static void mend(struct mesh *mesh, struct workshop *shop, char note[200])
 		add_note(note, "doubled or flat triangles left out");
 	drop_vertices(mesh, shop->index);
 	list_sides(mesh, shop->side);
-	double volume = 0.0;
-	for (int t = 0; t < mesh->triangle_count; t++)
-		volume += volume_of(mesh, &mesh->triangle[t]);
-	if (count_edges(shop->side, 3 * mesh->triangle_count).clashes > 0 || volume < 0.0) {
+	bool clashes = count_edges(shop->side, 3 * mesh->triangle_count).clashes > 0;
+	if (clashes || inside_out(mesh)) {
 		find_across(mesh, shop->side, shop->across);
 		orient(mesh, shop->across, shop->turned, shop->index);
 		add_note(note, "triangles turned to face outward");

@@ -85,6 +85,8 @@ static void learn_devices(struct replay *replay, struct pen *pen)
 		if (!device->used)
 			continue;
 		pen_describe(pen, d, device->descriptor, device->descriptor_size);
+		if (device->width_mm > 0.0f)
+			pen_resize(pen, d, device->width_mm, device->height_mm);
 		if (pen->device[d].kind == DEVICE_UNKNOWN)
 			fprintf(stderr, "kitsuke replay: note: %s: device %d is not used: %s\n",
 				replay->tape_path, d, pen->device[d].reason);
