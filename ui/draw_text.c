@@ -106,7 +106,7 @@ void draw_phrase(cairo_t *cr, struct type *type, const struct phrase *phrase,
 	struct style english = {label->english_px, false, label->colour_english, label->align,
 				rect.w};
 	if (language == LANGUAGE_BOTH) {
-		double gap = 0.28 * label->english_px;
+		double gap = 0.5 * label->english_px;
 		double height = 0.8 * label->japanese_px + gap + 0.72 * label->english_px;
 		double top = middle - 0.5 * height;
 		draw_text(cr, type, phrase->japanese, x, top + 0.8 * label->japanese_px, &japanese);

@@ -5,6 +5,7 @@
 
 #include "look.h"
 #include "text.h"
+#include "tool.h"
 
 #include <cairo.h>
 

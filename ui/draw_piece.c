@@ -1,0 +1,468 @@
+#include "draw_piece.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+static const struct v2 no_shift = {0.0f, 0.0f};
+
+/* ---- woven cloth ---- */
+
+struct cloth_paint {
+	cairo_pattern_t *weave[SWATCHES][2]; /* outside, inside */
+};
+
+/* One repeat of a plain weave: two short threads, a shade darker; the reverse, seen from where the
+ * weft floats, is a twill. Small enough to read as texture, too large to shimmer. */
+static cairo_pattern_t *weave(uint32_t colour, bool inside, double unit)
+{
+	int size = (int)(6.0 * unit + 0.5) < 4 ? 4 : (int)(6.0 * unit + 0.5);
+	double quarter = 0.25 * size;
+	cairo_surface_t *tile = cairo_image_surface_create(CAIRO_FORMAT_RGB24, size, size);
+	cairo_t *cr = cairo_create(tile);
+	ink(cr, colour, 1.0);
+	cairo_paint(cr);
+	bool dark = (colour >> 8 & 255) < 0x60;
+	ink(cr, colour_mix(colour, dark ? 0xffffff : 0x000000, inside ? 0.07 : 0.11), 1.0);
+	cairo_set_line_width(cr, 0.2 * size);
+	if (inside) {
+		for (int i = -1; i <= 1; i++) {
+			cairo_move_to(cr, (i - 0.25) * size, 1.25 * size);
+			cairo_line_to(cr, (i + 1.25) * size, -0.25 * size);
+		}
+	} else {
+		cairo_move_to(cr, 0.0, quarter);
+		cairo_line_to(cr, 0.5 * size, quarter);
+		cairo_move_to(cr, 0.5 * size, 3.0 * quarter);
+		cairo_line_to(cr, size, 3.0 * quarter);
+	}
+	cairo_stroke(cr);
+	cairo_destroy(cr);
+	cairo_pattern_t *pattern = cairo_pattern_create_for_surface(tile);
+	cairo_pattern_set_extend(pattern, CAIRO_EXTEND_REPEAT);
+	cairo_pattern_set_filter(pattern, CAIRO_FILTER_NEAREST);
+	cairo_surface_destroy(tile);
+	return pattern;
+}
+
+struct cloth_paint *cloth_paint_open(double unit)
+{
+	struct cloth_paint *paint = calloc(1, sizeof *paint);
+	for (int s = 0; paint && s < SWATCHES; s++) {
+		paint->weave[s][0] = weave(look_outside[s], false, unit);
+		paint->weave[s][1] = weave(look_inside[s], true, unit);
+	}
+	return paint;
+}
+
+void cloth_paint_close(struct cloth_paint *paint)
+{
+	if (!paint)
+		return;
+	for (int s = 0; s < SWATCHES; s++)
+		for (int side = 0; side < 2; side++)
+			cairo_pattern_destroy(paint->weave[s][side]);
+	free(paint);
+}
+
+/* ---- geometry on the screen ---- */
+
+static const struct piece *piece_of(const struct easel *easel, int piece)
+{
+	return &easel->session->document.pattern.piece[piece];
+}
+
+static struct v2 local_px(const struct easel *easel, const struct piece *piece, struct v2 local_mm,
+			  struct v2 shift_mm)
+{
+	return view_sheet_px(&easel->ui->view, v2_add(piece_to_sheet(piece, local_mm), shift_mm));
+}
+
+static void path_outline(const struct easel *easel, const struct piece *piece, struct v2 shift_mm)
+{
+	cairo_new_path(easel->cr);
+	for (int i = 0; i < piece->point_count; i++)
+		line_to(easel->cr, local_px(easel, piece, piece->point_mm[i], shift_mm));
+	cairo_close_path(easel->cr);
+}
+
+/* Outward on the screen from an edge that runs from a to b. */
+static struct v2 outward(const struct piece *piece, struct v2 a, struct v2 b)
+{
+	struct v2 along = v2_normalize(v2_sub(b, a));
+	struct v2 out = {-along.y, along.x};
+	return piece->inside_up ? v2_scale(out, -1.0f) : out;
+}
+
+void path_edge(const struct easel *easel, struct edge_ref edge, double inset)
+{
+	const struct piece *piece = piece_of(easel, edge.piece);
+	int first, last, count = piece->point_count;
+	piece_edge(piece, edge.edge, &first, &last);
+	int steps = (last - first + count) % count;
+	steps = steps == 0 ? count : steps;
+	cairo_new_path(easel->cr);
+	for (int k = 0; k <= steps; k++) {
+		int before = (first + int_max(k - 1, 0)) % count;
+		int after = (first + int_min(k + 1, steps)) % count;
+		struct v2 at = local_px(easel, piece, piece->point_mm[(first + k) % count],
+					no_shift);
+		struct v2 a = local_px(easel, piece, piece->point_mm[before], no_shift);
+		struct v2 b = local_px(easel, piece, piece->point_mm[after], no_shift);
+		line_to(easel->cr, v2_sub(at, v2_scale(outward(piece, a, b), (float)inset)));
+	}
+}
+
+struct rect piece_area(const struct easel *easel, int piece, struct v2 shift_mm)
+{
+	struct v2 low, high;
+	int margin = (int)(64.0 * easel->unit);
+	piece_bounds(piece_of(easel, piece), &low, &high);
+	low = view_sheet_px(&easel->ui->view, v2_add(low, shift_mm));
+	high = view_sheet_px(&easel->ui->view, v2_add(high, shift_mm));
+	return (struct rect){(int)low.x - margin, (int)high.y - margin,
+			     (int)(high.x - low.x) + 2 * margin,
+			     (int)(low.y - high.y) + 2 * margin};
+}
+
+/* ---- a piece ---- */
+
+static void draw_shadow(const struct easel *easel, const struct piece *piece, struct v2 shift_mm,
+			bool raised)
+{
+	cairo_t *cr = easel->cr;
+	double u = easel->unit, lift = raised ? 2.2 : 1.0;
+	for (int i = 0; i < 3; i++) {
+		cairo_save(cr);
+		cairo_translate(cr, (1.5 + 2.0 * i) * lift * u, (2.5 + 2.6 * i) * lift * u);
+		path_outline(easel, piece, shift_mm);
+		cairo_restore(cr);
+		cairo_set_source_rgba(cr, 0.24, 0.19, 0.12, 0.055);
+		cairo_fill(cr);
+	}
+}
+
+static void fill_cloth(const struct easel *easel, const struct piece *piece, struct v2 shift_mm)
+{
+	cairo_t *cr = easel->cr;
+	struct v2 origin = local_px(easel, piece, no_shift, shift_mm);
+	cairo_matrix_t matrix;
+	cairo_pattern_t *pattern =
+		easel->paint->weave[piece->swatch & (SWATCHES - 1)][piece->inside_up];
+	cairo_matrix_init_translate(&matrix, -(double)(int)origin.x, -(double)(int)origin.y);
+	cairo_pattern_set_matrix(pattern, &matrix);
+	path_outline(easel, piece, shift_mm);
+	cairo_set_source(cr, pattern);
+	cairo_fill(cr);
+}
+
+static void stroke_outline(const struct easel *easel, const struct piece *piece, struct v2 shift_mm,
+			   bool selected)
+{
+	cairo_t *cr = easel->cr;
+	double u = easel->unit;
+	cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+	if (selected) {
+		path_outline(easel, piece, shift_mm);
+		cairo_set_line_width(cr, 13.0 * u);
+		ink(cr, LOOK_HINT_RIM, 0.75);
+		cairo_stroke(cr);
+	}
+	path_outline(easel, piece, shift_mm);
+	cairo_set_line_width(cr, 3.4 * u);
+	ink(cr, LOOK_INK, 1.0);
+	cairo_stroke(cr);
+}
+
+/* Where edges end: while sewing they are what the hand aims between. */
+static void draw_corners(const struct easel *easel, const struct piece *piece, struct v2 shift_mm)
+{
+	cairo_t *cr = easel->cr;
+	double u = easel->unit;
+	for (int i = 0; i < piece->point_count; i++) {
+		if (!piece->corner[i])
+			continue;
+		struct v2 at = local_px(easel, piece, piece->point_mm[i], shift_mm);
+		disc(cr, (double)at.x, (double)at.y, 5.0 * u);
+		ink(cr, 0xffffff, 1.0);
+		cairo_fill_preserve(cr);
+		cairo_set_line_width(cr, 2.4 * u);
+		ink(cr, LOOK_INK, 1.0);
+		cairo_stroke(cr);
+	}
+}
+
+static bool has_partner(const struct session *session, int number)
+{
+	for (int m = 0; m < MARKS_MAX; m++)
+		if (session->document.marks.body[m].used &&
+		    session->document.marks.body[m].number == number)
+			return true;
+	return false;
+}
+
+static void draw_mark(const struct easel *easel, const struct cloth_mark *mark, struct v2 shift_mm)
+{
+	cairo_t *cr = easel->cr;
+	double u = easel->unit, dash[4];
+	const struct piece *piece = piece_of(easel, mark->piece);
+	const struct mark_style *style = look_mark_style(mark->number);
+	bool doubled = look_mark_doubled(mark->number), dashed = style->dash_px[0] > 0.0f;
+	cairo_new_path(cr);
+	for (int i = 0; i < mark->point_count; i++)
+		line_to(cr, local_px(easel, piece, mark->point_mm[i], shift_mm));
+	cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+	cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+	cairo_set_line_width(cr, (doubled ? 12.5 : 9.5) * u);
+	ink(cr, 0xffffff, 0.85);
+	cairo_stroke_preserve(cr);
+	for (int i = 0; i < 4; i++)
+		dash[i] = (double)style->dash_px[i] * u;
+	if (dashed)
+		cairo_set_dash(cr, dash, 4, 0.0);
+	cairo_set_line_width(cr, (doubled ? 8.0 : 5.0) * u);
+	ink(cr, style->colour, 1.0);
+	if (doubled) {
+		cairo_stroke_preserve(cr);
+		cairo_set_dash(cr, NULL, 0, 0.0);
+		cairo_set_line_width(cr, 2.6 * u);
+		ink(cr, 0xffffff, 1.0);
+	}
+	cairo_stroke(cr);
+	cairo_set_dash(cr, NULL, 0, 0.0);
+	struct v2 start = local_px(easel, piece, mark->point_mm[0], shift_mm);
+	draw_number(cr, easel->type, mark->number, (double)start.x, (double)start.y, 17.0 * u,
+		    has_partner(easel->session, mark->number));
+}
+
+/* The name under the piece, and which side is up. Pieces drawn here are named by number. */
+static void draw_name(const struct easel *easel, int p, struct v2 shift_mm)
+{
+	const struct piece *piece = piece_of(easel, p);
+	const struct phrase *cloth = &text_phrase[TEXT_CLOTH],
+			    *inside = &text_phrase[TEXT_INSIDE_UP];
+	enum language language = easel->ui->language;
+	bool named = piece->name[0] && strncmp(piece->name, "piece-", 6) != 0;
+	const char *ja = language == LANGUAGE_ENGLISH ? "" : cloth->japanese;
+	const char *en = language == LANGUAGE_JAPANESE ? "" : cloth->english;
+	const char *gap = language == LANGUAGE_BOTH ? " " : "";
+	char text[160], side[64] = "";
+	if (piece->inside_up && language == LANGUAGE_BOTH)
+		snprintf(side, sizeof side, "（%s %s）", inside->japanese, inside->english);
+	else if (piece->inside_up)
+		snprintf(side, sizeof side, "（%s）",
+			 language == LANGUAGE_JAPANESE ? inside->japanese : inside->english);
+	if (named)
+		snprintf(text, sizeof text, "%.*s%s", NAME_BYTES_MAX, piece->name, side);
+	else
+		snprintf(text, sizeof text, "%s%s%s %d%s", ja, gap, en, p + 1, side);
+	struct v2 low, high;
+	piece_bounds(piece, &low, &high);
+	struct v2 at = view_sheet_px(&easel->ui->view,
+				     v2_add((struct v2){0.5f * (low.x + high.x), low.y}, shift_mm));
+	struct style style = {22.0 * easel->unit, false, LOOK_INK_GREY, ALIGN_CENTRE, 0.0};
+	draw_text(easel->cr, easel->type, text, (double)at.x, (double)at.y + 34.0 * easel->unit,
+		  &style);
+}
+
+void draw_piece(const struct easel *easel, int p, struct v2 shift_mm, bool raised)
+{
+	const struct piece *piece = piece_of(easel, p);
+	bool selected = easel->ui->piece == p && easel->ui->step == STEP_DRAW;
+	draw_shadow(easel, piece, shift_mm, raised);
+	fill_cloth(easel, piece, shift_mm);
+	stroke_outline(easel, piece, shift_mm, selected);
+	if (easel->ui->step == STEP_SEW || selected)
+		draw_corners(easel, piece, shift_mm);
+	draw_name(easel, p, shift_mm);
+	for (int m = 0; m < MARKS_MAX; m++) {
+		const struct cloth_mark *mark = &easel->session->document.marks.cloth[m];
+		if (mark->used && mark->piece == p && mark->point_count > 0)
+			draw_mark(easel, mark, shift_mm);
+	}
+}
+
+/* ---- seams ---- */
+
+void draw_edge_glow(const struct easel *easel, struct edge_ref edge, uint32_t colour)
+{
+	cairo_t *cr = easel->cr;
+	double u = easel->unit;
+	path_edge(easel, edge, 0.0);
+	cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+	cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+	cairo_set_line_width(cr, 15.0 * u);
+	ink(cr, colour, 0.55);
+	cairo_stroke_preserve(cr);
+	cairo_set_line_width(cr, 5.5 * u);
+	ink(cr, colour, 1.0);
+	cairo_stroke(cr);
+}
+
+static struct v2 edge_px(const struct easel *easel, struct edge_ref edge, float fraction)
+{
+	const struct piece *piece = piece_of(easel, edge.piece);
+	return local_px(easel, piece, piece_edge_point(piece, edge.edge, fraction), no_shift);
+}
+
+/* Along an orientable surface the start of one edge meets the end of the other. */
+void draw_zip(const struct easel *easel, struct edge_ref a, struct edge_ref b, bool swapped,
+	      double alpha)
+{
+	enum { THREADS = 9 };
+	cairo_t *cr = easel->cr;
+	cairo_set_line_width(cr, 2.0 * easel->unit);
+	ink(cr, LOOK_WRAP, 0.55 * alpha);
+	for (int i = 0; i < THREADS; i++) {
+		float t = (float)i / (float)(THREADS - 1);
+		move_to(cr, edge_px(easel, a, t));
+		line_to(cr, edge_px(easel, b, swapped ? t : 1.0f - t));
+	}
+	cairo_stroke(cr);
+	for (int side = 0; side < 2; side++) { /* the ends that meet first */
+		struct v2 at = side == 0 ? edge_px(easel, a, 0.0f)
+					 : edge_px(easel, b, swapped ? 0.0f : 1.0f);
+		disc(cr, (double)at.x, (double)at.y, 7.0 * easel->unit);
+		ink(cr, LOOK_WRAP, alpha);
+		cairo_fill(cr);
+	}
+}
+
+static void seam_letter(int seam, int side, char text[8])
+{
+	char letter = (char)('A' + seam % 26);
+	if (seam < 26)
+		snprintf(text, 8, "%c%s", letter, side ? "'" : "");
+	else
+		snprintf(text, 8, "%c%d%s", letter, seam / 26 + 1, side ? "'" : "");
+}
+
+/* A triangle beside the edge that points the way the seam runs, the same way on both sides. */
+static void draw_way(const struct easel *easel, struct edge_ref edge, bool backwards)
+{
+	cairo_t *cr = easel->cr;
+	double u = easel->unit;
+	const struct piece *piece = piece_of(easel, edge.piece);
+	struct v2 a = edge_px(easel, edge, 0.24f), b = edge_px(easel, edge, 0.26f);
+	struct v2 out = outward(piece, a, b);
+	struct v2 along = v2_scale(v2_normalize(v2_sub(b, a)), backwards ? -1.0f : 1.0f);
+	struct v2 at = v2_sub(a, v2_scale(out, (float)(11.0 * u)));
+	struct v2 tip = v2_add(at, v2_scale(along, (float)(9.0 * u)));
+	struct v2 tail = v2_sub(at, v2_scale(along, (float)(5.0 * u)));
+	move_to(cr, tip);
+	line_to(cr, v2_add(tail, v2_scale(out, (float)(5.5 * u))));
+	line_to(cr, v2_sub(tail, v2_scale(out, (float)(5.5 * u))));
+	cairo_close_path(cr);
+	ink(cr, 0xffffff, 0.9);
+	cairo_fill(cr);
+}
+
+static void draw_stitches(const struct easel *easel, struct edge_ref edge)
+{
+	cairo_t *cr = easel->cr;
+	double u = easel->unit, dash[2] = {6.0 * u, 5.0 * u};
+	path_edge(easel, edge, 7.0 * u);
+	cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
+	cairo_set_dash(cr, dash, 2, 0.0);
+	cairo_set_line_width(cr, 2.4 * u);
+	ink(cr, 0xffffff, 0.85);
+	cairo_stroke(cr);
+	cairo_set_dash(cr, NULL, 0, 0.0);
+}
+
+/* A dotted thread that leaves both edges straight outwards. */
+static void draw_thread(const struct easel *easel, const struct seam *seam, bool selected)
+{
+	cairo_t *cr = easel->cr;
+	double u = easel->unit, dots[2] = {0.01, 8.5 * u};
+	struct v2 end[2], control[2];
+	for (int side = 0; side < 2; side++) {
+		struct edge_ref edge = side == 0 ? seam->a : seam->b;
+		struct v2 a = edge_px(easel, edge, 0.47f), b = edge_px(easel, edge, 0.53f);
+		end[side] = seam_badge_px(easel->ui, &easel->session->document.pattern, seam, side);
+		control[side] = outward(piece_of(easel, edge.piece), a, b);
+	}
+	float reach = float_clamp(0.36f * v2_distance(end[0], end[1]), (float)(24.0 * u),
+				  (float)(150.0 * u));
+	for (int side = 0; side < 2; side++)
+		control[side] = v2_add(end[side], v2_scale(control[side], reach));
+	move_to(cr, end[0]);
+	cairo_curve_to(cr, (double)control[0].x, (double)control[0].y, (double)control[1].x,
+		       (double)control[1].y, (double)end[1].x, (double)end[1].y);
+	cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+	cairo_set_dash(cr, dots, 2, 0.0);
+	cairo_set_line_width(cr, (selected ? 4.0 : 3.0) * u);
+	ink(cr, selected ? LOOK_WRAP : 0x8c8375, 1.0);
+	cairo_stroke(cr);
+	cairo_set_dash(cr, NULL, 0, 0.0);
+}
+
+static void draw_letter(const struct easel *easel, int s, int side, bool selected)
+{
+	cairo_t *cr = easel->cr;
+	double u = easel->unit;
+	char text[8];
+	const struct pattern *pattern = &easel->session->document.pattern;
+	struct v2 at = seam_badge_px(easel->ui, pattern, &pattern->seam[s], side);
+	seam_letter(s, side, text);
+	round_box(cr, (double)at.x - 19.0 * u, (double)at.y - 17.0 * u, 38.0 * u, 34.0 * u,
+		  8.0 * u);
+	ink(cr, 0xffffff, 1.0);
+	cairo_fill_preserve(cr);
+	cairo_set_line_width(cr, (selected ? 3.6 : 2.4) * u);
+	ink(cr, selected ? LOOK_WRAP : 0x8c8375, 1.0);
+	cairo_stroke(cr);
+	struct style style = {23.0 * u, selected, LOOK_INK, ALIGN_CENTRE, 34.0 * u};
+	draw_text(cr, easel->type, text, (double)at.x, (double)at.y + 8.5 * u, &style);
+}
+
+void draw_seams(const struct easel *easel)
+{
+	const struct pattern *pattern = &easel->session->document.pattern;
+	bool sewing = easel->ui->step == STEP_SEW, early = easel->ui->step <= STEP_SEW;
+	for (int s = 0; s < SEAMS_MAX; s++) {
+		const struct seam *seam = &pattern->seam[s];
+		bool selected = sewing && s == easel->ui->seam;
+		if (!seam->used)
+			continue;
+		draw_stitches(easel, seam->a);
+		draw_stitches(easel, seam->b);
+		if (selected) {
+			draw_edge_glow(easel, seam->a, LOOK_HINT_RIM);
+			draw_edge_glow(easel, seam->b, LOOK_HINT_RIM);
+			draw_zip(easel, seam->a, seam->b, seam->swapped, 1.0);
+		}
+		if (sewing) {
+			draw_way(easel, seam->a, false);
+			draw_way(easel, seam->b, !seam->swapped);
+		}
+		if (early && !selected)
+			draw_thread(easel, seam, selected);
+	}
+	for (int s = 0; early && s < SEAMS_MAX; s++)
+		for (int side = 0; pattern->seam[s].used && side < 2; side++)
+			draw_letter(easel, s, side, sewing && s == easel->ui->seam);
+}
+
+void draw_pins(const struct easel *easel)
+{
+	cairo_t *cr = easel->cr;
+	double u = easel->unit;
+	for (int p = 0; p < PINS_MAX; p++) {
+		const struct pin *pin = &easel->session->document.pin[p];
+		if (!pin->used || !piece_used(easel->session, pin->piece))
+			continue;
+		struct v2 at = local_px(easel, piece_of(easel, pin->piece), pin->point_mm,
+					no_shift);
+		cairo_move_to(cr, (double)at.x, (double)at.y);
+		cairo_rel_line_to(cr, 0.0, -14.0 * u);
+		cairo_set_line_width(cr, 3.0 * u);
+		ink(cr, 0x7d4463, 1.0);
+		cairo_stroke(cr);
+		disc(cr, (double)at.x, (double)at.y - 20.0 * u, 11.0 * u);
+		ink(cr, LOOK_PIN, 1.0);
+		cairo_fill_preserve(cr);
+		cairo_set_line_width(cr, 3.0 * u);
+		ink(cr, 0xffffff, 1.0);
+		cairo_stroke(cr);
+	}
+}
