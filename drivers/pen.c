@@ -171,12 +171,12 @@ static float tilt(const struct pen_layout *layout, const struct pen_field *field
 /* Where the pen is now, in mm: filtered, or where it was while a jump is not confirmed. */
 static struct v2 position_next(const struct pen *pen, struct pen_device *d,
 			       const struct pen_layout *layout, const struct pen_fields *f,
-			       int64_t dt_us)
+			       bool drawing, int64_t dt_us)
 {
 	struct v2 mm = pen_place_mm(pen, d, layout, f);
 	if (!d->placed)
 		pen_filter_reset(d, mm);
-	else if (d->state == PEN_TOUCH && pen_jump_held(d, mm, dt_us))
+	else if (drawing && pen_jump_held(d, mm, dt_us))
 		return d->filtered_mm;
 	return pen_filter(d, mm, dt_us);
 }
@@ -201,7 +201,9 @@ static void pen_report(struct pen *pen, const struct raw_report *report, struct 
 	struct pen_sample sample = d->last;
 	sample.time_us = report->time_us;
 	if (!null) {
-		struct v2 mm = position_next(pen, d, layout, &f, report->time_us - d->last_us);
+		bool drawing = d->state == PEN_TOUCH && state == PEN_TOUCH;
+		struct v2 mm = position_next(pen, d, layout, &f, drawing,
+					     report->time_us - d->last_us);
 		sample.position_px = pen_mm_to_px(pen, d, layout, mm);
 		d->last_us = report->time_us;
 	}

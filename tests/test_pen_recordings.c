@@ -195,6 +195,7 @@ static struct played play(const struct tape *tape, const uint8_t *descriptor, in
 
 static int decoded, undescribed;
 static long contacts, tip_downs;
+static struct hash all;
 
 static void check_recording(int row, const struct tape *tape)
 {
@@ -219,6 +220,8 @@ static void check_recording(int row, const struct tape *tape)
 		test_failures++;
 	}
 	decoded++;
+	hash_u32(&all, (uint32_t)(first.hash.value >> 32));
+	hash_u32(&all, (uint32_t)first.hash.value);
 	contacts += first.contacts;
 	tip_downs += found.seen.tip_downs;
 	if (getenv("VERBOSE"))
@@ -235,6 +238,7 @@ int main(void)
 		printf("skip: no recordings at " DATA "\n");
 		return 77;
 	}
+	hash_init(&all);
 	for (int row = 0; row < recordings.rows; row++) {
 		char path[512], fault[200];
 		size_t size;
@@ -254,7 +258,7 @@ int main(void)
 	/* 20 of 96 stand without their descriptor in the tables. */
 	CHECK(decoded >= 76 && undescribed <= 20);
 	if (getenv("VERBOSE"))
-		printf("%d decoded, %d undescribed, %ld tip switches, %ld contacts\n", decoded,
-		       undescribed, tip_downs, contacts);
+		printf("%d decoded, %d undescribed, %ld tip switches, %ld contacts, hash %016llx\n",
+		       decoded, undescribed, tip_downs, contacts, (unsigned long long)all.value);
 	return test_end();
 }
