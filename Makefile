@@ -75,7 +75,9 @@ SHORT = $(if $(V),,@echo '  $(1)' '$(patsubst $(B)/%,%,$(or $(2),$@))';)
 all: $(B)/kitsuke
 
 $(B)/kitsuke: $(call objects,$(MAIN)) $(B)/kitsuke.a
-$(TESTS) $(BENCH) $(FUZZ) $(TOOLS): %: %.o $(B)/kitsuke.a
+$(TESTS) $(BENCH) $(FUZZ): %: %.o $(B)/kitsuke.a
+.SECONDEXPANSION:
+$(TOOLS): %: %.o $$(call objects,$$(wildcard $$(subst $(B)/,,$$@)_*.c)) $(B)/kitsuke.a
 $(FUZZ): LINK := -fsanitize=fuzzer
 
 $(B)/kitsuke $(TESTS) $(BENCH) $(FUZZ) $(TOOLS):
