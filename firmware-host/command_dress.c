@@ -31,7 +31,7 @@ struct dresser {
 	char fault[FAULT_BYTES];
 };
 
-static int complain(const struct dresser *dresser, enum exit_status status)
+static int complain(const struct dresser *dresser, int status)
 {
 	fprintf(stderr, "kitsuke dress: %s\n", dresser->fault);
 	return status;

@@ -48,7 +48,7 @@ struct replay {
 	char fault[FAULT_BYTES];
 };
 
-static int complain(const struct replay *replay, enum exit_status status)
+static int complain(const struct replay *replay, int status)
 {
 	fprintf(stderr, "kitsuke replay: %s\n", replay->fault);
 	return status;

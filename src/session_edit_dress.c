@@ -241,7 +241,7 @@ static const char *apply(struct session *session, const struct edit *edit)
 	case EDIT_RELAX:
 		return relax(session, edit);
 	default:
-		MUST(!"an edit around the body");
+		must_fail("an edit around the body", __FILE__, __LINE__);
 		return NULL;
 	}
 }

@@ -273,7 +273,7 @@ const char *session_edit_pattern(struct session *session, const struct edit *edi
 	case EDIT_UNSEW:
 		return unsew(session, edit);
 	default:
-		MUST(!"an edit of the pattern");
+		must_fail("an edit of the pattern", __FILE__, __LINE__);
 		return NULL;
 	}
 }
