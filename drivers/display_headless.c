@@ -4,6 +4,7 @@
 #include "display_private.h"
 
 #include <GLES3/gl3.h>
+#include <GLES2/gl2ext.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -65,19 +66,26 @@ static bool framebuffer_open(struct headless *headless)
 {
 	int width = headless->base.width, height = headless->base.height;
 	GLint largest = 0;
-	glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
+	/* Pixels in the byte order of screens and of cairo: copies need no conversion. */
+	GLenum format = display_extension((const char *)glGetString(GL_EXTENSIONS),
+					  "GL_EXT_texture_format_BGRA8888")
+				? GL_BGRA_EXT
+				: GL_RGBA;
+	glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
 	if (width > largest || height > largest)
 		return false;
-	glGenRenderbuffers(1, &headless->colour);
-	glBindRenderbuffer(GL_RENDERBUFFER, headless->colour);
-	glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
+	glGenTextures(1, &headless->colour);
+	glBindTexture(GL_TEXTURE_2D, headless->colour);
+	glTexImage2D(GL_TEXTURE_2D, 0, (GLint)format, width, height, 0, format, GL_UNSIGNED_BYTE,
+		     NULL);
+	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
 	glGenRenderbuffers(1, &headless->depth);
 	glBindRenderbuffer(GL_RENDERBUFFER, headless->depth);
 	glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, width, height);
 	glGenFramebuffers(1, &headless->framebuffer);
 	glBindFramebuffer(GL_FRAMEBUFFER, headless->framebuffer);
-	glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
-				  headless->colour);
+	glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
+			       headless->colour, 0);
 	glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
 				  headless->depth);
 	return glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
@@ -95,7 +103,7 @@ static void headless_close(struct display *display)
 	struct headless *headless = (struct headless *)display;
 	if (headless->context != EGL_NO_CONTEXT) {
 		glDeleteFramebuffers(1, &headless->framebuffer);
-		glDeleteRenderbuffers(1, &headless->colour);
+		glDeleteTextures(1, &headless->colour);
 		glDeleteRenderbuffers(1, &headless->depth);
 		eglMakeCurrent(headless->egl, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
 		eglDestroyContext(headless->egl, headless->context);

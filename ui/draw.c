@@ -25,11 +25,30 @@ static bool quads_make(struct draw *draw)
 	return true;
 }
 
+static bool order_open(struct mesh_order *order)
+{
+	order->triangle = calloc(BODY_TRIANGLES_MAX, sizeof *order->triangle);
+	order->triangle_2 = calloc(BODY_TRIANGLES_MAX, sizeof *order->triangle_2);
+	order->key = calloc(BODY_TRIANGLES_MAX, sizeof *order->key);
+	order->key_2 = calloc(BODY_TRIANGLES_MAX, sizeof *order->key_2);
+	order->rank = calloc(BODY_VERTICES_MAX, sizeof *order->rank);
+	return order->triangle && order->triangle_2 && order->key && order->key_2 && order->rank;
+}
+
+static void order_release(struct mesh_order *order)
+{
+	free(order->triangle);
+	free(order->triangle_2);
+	free(order->key);
+	free(order->key_2);
+	free(order->rank);
+}
+
 static bool parts_open(struct draw *draw, char fault[200])
 {
-	return quads_make(draw) && room_open(draw, fault) && body_open(draw, fault) &&
-	       cloth_open(draw, fault) && shadow_open(draw, fault) && ribbons_open(draw, fault) &&
-	       sprites_open(draw, fault);
+	return quads_make(draw) && order_open(&draw->order) && room_open(draw, fault) &&
+	       body_open(draw, fault) && cloth_open(draw, fault) && shadow_open(draw, fault) &&
+	       ribbons_open(draw, fault) && sprites_open(draw, fault);
 }
 
 struct draw *draw_open(int width, int height, char fault[200])
@@ -53,7 +72,8 @@ struct draw *draw_open(int width, int height, char fault[200])
 	draw->px = float_max((float)height / 1080.0f, 0.5f);
 	draw->marks.stale = true;
 	glGetIntegerv(GL_FRAMEBUFFER_BINDING, &draw->target);
-	if (!parts_open(draw, fault)) {
+	draw->rows = malloc((size_t)width * (size_t)height * 4);
+	if (!draw->rows || !parts_open(draw, fault)) {
 		if (!fault[0])
 			snprintf(fault, 200, "no memory to draw with");
 		draw_close(draw);
@@ -73,6 +93,8 @@ void draw_close(struct draw *draw)
 {
 	if (!draw)
 		return;
+	free(draw->rows);
+	order_release(&draw->order);
 	room_release(draw);
 	body_release(draw);
 	cloth_release(draw);
@@ -97,7 +119,7 @@ void draw_bones(struct draw *draw, bool shown)
 }
 
 /* The pane counts from the top of the screen, GL from the bottom. */
-static void pane_enter(const struct draw *draw, const struct rect *pane)
+void pane_enter(const struct draw *draw, const struct rect *pane)
 {
 	int bottom = draw->height - pane->y - pane->h;
 	glViewport(pane->x, bottom, pane->w, pane->h);
@@ -109,16 +131,25 @@ static void pane_enter(const struct draw *draw, const struct rect *pane)
 	glClear(GL_DEPTH_BUFFER_BIT);
 }
 
-static void figure_draw(struct draw *draw, const struct ui *ui, const struct session *session)
+/* Everything opaque that was made on the processor, before the first triangle. */
+void background_draw(struct draw *draw, const struct ui *ui, const struct session *session)
 {
-	if ((draw->body.stale || draw->body.hash != session->body.hash) &&
-	    session->body.vertex_count)
-		body_upload(draw, &session->body);
-	cloth_upload(draw, session);
-	camera_make(&draw->camera, &ui->view, &session->body);
-	shadow_draw(draw);
+	draw->sheet_layer = sheet_update(draw->sheet, ui, session);
+	draw->chrome_layer = chrome_update(draw->chrome, ui, session);
+	layer_take(draw, &draw->sheet_plate, draw->sheet_layer);
+	layer_take(draw, &draw->chrome_plate, draw->chrome_layer);
+	glDisable(GL_SCISSOR_TEST);
+	glDisable(GL_DEPTH_TEST);
+	glViewport(0, 0, draw->width, draw->height);
+	room_copy(draw, &ui->view.pane);
+	layer_draw(draw, &draw->sheet_plate, draw->sheet_layer, true);
+	layer_draw(draw, &draw->chrome_plate, draw->chrome_layer, true);
+}
+
+static void figure_draw(struct draw *draw, const struct ui *ui)
+{
 	pane_enter(draw, &ui->view.pane);
-	room_draw(draw, &ui->view.pane);
+	room_draw(draw);
 	body_draw(draw);
 	cloth_draw(draw);
 }
@@ -143,20 +174,26 @@ static void lines_draw(struct draw *draw, const struct ui *ui, const struct sess
 	sprites_draw(draw, true);
 }
 
-static void layers_draw(struct draw *draw, const struct ui *ui, const struct session *session)
+void overlays_draw(struct draw *draw)
 {
 	glDisable(GL_DEPTH_TEST);
 	glDisable(GL_SCISSOR_TEST);
 	glViewport(0, 0, draw->width, draw->height);
-	upload_draw(draw, &draw->sheet_upload, sheet_update(draw->sheet, ui, session));
-	upload_draw(draw, &draw->chrome_upload, chrome_update(draw->chrome, ui, session));
+	layer_draw(draw, &draw->sheet_plate, draw->sheet_layer, false);
+	layer_draw(draw, &draw->chrome_plate, draw->chrome_layer, false);
 }
 
 void draw_frame(struct draw *draw, const struct ui *ui, const struct session *session)
 {
-	glGetIntegerv(GL_FRAMEBUFFER_BINDING, &draw->target);
 	glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-	figure_draw(draw, ui, session);
+	if ((draw->body.stale || draw->body.hash != session->body.hash) &&
+	    session->body.vertex_count)
+		body_upload(draw, &session->body);
+	cloth_upload(draw, session);
+	camera_make(&draw->camera, &ui->view, &session->body);
+	background_draw(draw, ui, session);
+	shadow_draw(draw);
+	figure_draw(draw, ui);
 	lines_draw(draw, ui, session);
-	layers_draw(draw, ui, session);
+	overlays_draw(draw);
 }

@@ -4,6 +4,8 @@
 #include <stddef.h>
 #include <stdlib.h>
 
+static const float caster_cell_m = 0.022f;
+
 struct body_vertex {
 	struct v3 position_m;
 	struct v3 normal;
@@ -18,8 +20,11 @@ bool body_open(struct draw *draw, char fault[200])
 	body->open_sky = calloc(BODY_VERTICES_MAX, sizeof *body->open_sky);
 	glGenBuffers(1, &body->vertices);
 	glGenBuffers(1, &body->indices);
+	body->caster_m = calloc(BODY_VERTICES_MAX, sizeof *body->caster_m);
+	glGenBuffers(1, &body->caster_vertices);
+	glGenBuffers(1, &body->caster_indices);
 	body->stale = true;
-	return body->vertex && body->index && body->open_sky &&
+	return body->vertex && body->caster_m && body->index && body->open_sky &&
 	       surface_open(&body->program, false, fault);
 }
 
@@ -27,6 +32,7 @@ void body_release(struct draw *draw)
 {
 	free(draw->body.vertex);
 	free(draw->body.index);
+	free(draw->body.caster_m);
 	free(draw->body.open_sky);
 }
 
@@ -59,35 +65,63 @@ static void openness_bake(struct draw_body *draw, const struct body *body)
 	}
 }
 
+static void buffer_fill(GLenum target, GLuint buffer, size_t size, const void *data)
+{
+	glBindBuffer(target, buffer);
+	glBufferData(target, (GLsizeiptr)size, data, GL_STATIC_DRAW);
+}
+
+static void caster_upload(struct draw *draw, const struct body *body)
+{
+	struct draw_body *own = &draw->body;
+	int count = mesh_coarsen(&draw->order, body->position_m, body->vertex_count, caster_cell_m,
+				 own->caster_m);
+	own->caster_count = 0;
+	for (int t = 0; t < body->triangle_count; t++) {
+		const int *v = body->triangle[t].v, *rank = draw->order.rank;
+		int a = rank[v[0]], b = rank[v[1]], c = rank[v[2]];
+		if (a == b || b == c || c == a)
+			continue;
+		own->index[own->caster_count++] = (uint16_t)a;
+		own->index[own->caster_count++] = (uint16_t)b;
+		own->index[own->caster_count++] = (uint16_t)c;
+	}
+	buffer_fill(GL_ARRAY_BUFFER, own->caster_vertices, (size_t)count * sizeof *own->caster_m,
+		    own->caster_m);
+	buffer_fill(GL_ELEMENT_ARRAY_BUFFER, own->caster_indices,
+		    (size_t)own->caster_count * sizeof *own->index, own->index);
+}
+
 void body_upload(struct draw *draw, const struct body *body)
 {
 	struct draw_body *own = &draw->body;
 	MUST(body->vertex_count <= BODY_VERTICES_MAX);
 	openness_bake(own, body);
+	mesh_order(&draw->order, body->position_m, body->vertex_count, body->triangle,
+		   body->triangle_count);
 	for (int i = 0; i < body->vertex_count; i++) {
-		struct body_vertex *vertex = &own->vertex[i];
+		struct body_vertex *vertex = &own->vertex[draw->order.rank[i]];
 		vertex->position_m = body->position_m[i];
 		vertex->normal = body->normal[i];
 		vertex->material[0] = (uint8_t)(own->open_sky[i] * 255.0f);
 	}
 	own->index_count = 3 * body->triangle_count;
 	for (int i = 0; i < body->triangle_count; i++)
-		for (int k = 0; k < 3; k++)
-			own->index[3 * i + k] = (uint16_t)body->triangle[i].v[k];
-	glBindBuffer(GL_ARRAY_BUFFER, own->vertices);
-	glBufferData(GL_ARRAY_BUFFER,
-		     (GLsizeiptr)((size_t)body->vertex_count * sizeof *own->vertex), own->vertex,
-		     GL_STATIC_DRAW);
-	glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, own->indices);
-	glBufferData(GL_ELEMENT_ARRAY_BUFFER,
-		     (GLsizeiptr)((size_t)own->index_count * sizeof *own->index), own->index,
-		     GL_STATIC_DRAW);
+		for (int k = 0; k < 3; k++) {
+			int v = body->triangle[draw->order.triangle[i]].v[k];
+			own->index[3 * i + k] = (uint16_t)draw->order.rank[v];
+		}
+	buffer_fill(GL_ARRAY_BUFFER, own->vertices,
+		    (size_t)body->vertex_count * sizeof *own->vertex, own->vertex);
+	buffer_fill(GL_ELEMENT_ARRAY_BUFFER, own->indices,
+		    (size_t)own->index_count * sizeof *own->index, own->index);
+	caster_upload(draw, body);
 	room_floor_changed(draw, body);
 	own->hash = body->hash;
 	own->stale = false;
 }
 
-void body_bind(const struct draw *draw)
+static void body_bind(const struct draw *draw)
 {
 	int stride = (int)sizeof(struct body_vertex);
 	glBindBuffer(GL_ARRAY_BUFFER, draw->body.vertices);
@@ -96,6 +130,15 @@ void body_bind(const struct draw *draw)
 	gl_floats(AT_POSITION, 3, stride, offsetof(struct body_vertex, position_m));
 	gl_floats(AT_NORMAL, 3, stride, offsetof(struct body_vertex, normal));
 	gl_bytes(AT_MATERIAL, stride, offsetof(struct body_vertex, material));
+}
+
+void body_cast(const struct draw *draw)
+{
+	glBindBuffer(GL_ARRAY_BUFFER, draw->body.caster_vertices);
+	glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, draw->body.caster_indices);
+	gl_attributes(1u << AT_POSITION);
+	gl_floats(AT_POSITION, 3, (int)sizeof(struct v3), 0);
+	glDrawElements(GL_TRIANGLES, draw->body.caster_count, GL_UNSIGNED_SHORT, NULL);
 }
 
 void body_draw(struct draw *draw)

@@ -47,9 +47,19 @@ struct edge_use {
 	int count, next;
 };
 
+/* Room to reorder a mesh in; see draw_order.c. */
+struct mesh_order {
+	int *triangle, *triangle_2; /* in the new order: old indices */
+	uint32_t *key, *key_2;
+	int *rank; /* per old vertex: its new index */
+};
+
 struct draw_body {
 	GLuint vertices, indices;
 	int index_count;
+	GLuint caster_vertices, caster_indices; /* a coarse copy that casts the shadows */
+	int caster_count;
+	struct v3 *caster_m;
 	struct surface_program program;
 	struct body_vertex *vertex; /* BODY_VERTICES_MAX */
 	uint16_t *index;
@@ -139,11 +149,19 @@ struct shadow {
 	int size; /* 0: no shadows */
 };
 
+/* A picture made on the processor. */
+struct plate {
+	GLuint texture, framebuffer;
+	GLenum format;
+	int width, height;
+	bool bottom_up, copies;
+};
+
 struct room {
-	GLuint backdrop, floor, quad, program, floor_program;
+	struct plate backdrop;
+	GLuint floor, quad, program, floor_program;
 	GLint place, cut, floor_clip, floor_half;
-	struct rect pane; /* what the backdrop was made for */
-	uint8_t *pixels;
+	uint8_t *pixels; /* the backdrop */
 	float floor_half_m;
 };
 
@@ -165,15 +183,11 @@ struct draw_marks {
 	bool stale;
 };
 
-struct upload {
-	GLuint texture;
-	GLenum format;
-};
-
 struct draw {
 	int width, height;
-	GLint target; /* the framebuffer that the frame goes to */
-	GLuint quads; /* indices of RIBBON_VERTICES_MAX / 4 quads */
+	GLint target;            /* the framebuffer that the frame goes to */
+	struct mesh_order order; /* BODY_TRIANGLES_MAX, BODY_VERTICES_MAX */
+	GLuint quads;            /* indices of RIBBON_VERTICES_MAX / 4 quads */
 	struct camera camera;
 	struct room room;
 	struct draw_body body;
@@ -184,8 +198,10 @@ struct draw {
 	struct draw_marks marks;
 	struct sheet *sheet;
 	struct chrome *chrome;
-	struct upload sheet_upload, chrome_upload;
-	float px; /* one pixel of the look's drawing (1080 lines) on this screen */
+	const struct layer *sheet_layer, *chrome_layer; /* of this frame */
+	struct plate sheet_plate, chrome_plate;
+	uint8_t *rows; /* a screenful, on its way up */
+	float px;      /* one pixel of the look's drawing (1080 lines) on this screen */
 	bool bones;
 };
 
@@ -197,15 +213,28 @@ void camera_clip(const struct camera *camera, struct v3 point_m, float lift_m, f
 bool surface_open(struct surface_program *surface, bool cloth, char fault[200]);
 void surface_use(const struct surface_program *surface, const struct draw *draw, float bias_m);
 
+void pane_enter(const struct draw *draw, const struct rect *pane);
+void background_draw(struct draw *draw, const struct ui *ui, const struct session *session);
+void overlays_draw(struct draw *draw);
+
+void mesh_order(struct mesh_order *mesh, const struct v3 *position_m, int vertex_count,
+		const struct triangle *triangle, int triangle_count);
+
+/* Vertices that share a cell become one, at their mean; rank says which. Returns how many are left
+ * (in coarse_m). Rough, and good enough for what casts a soft shadow. */
+int mesh_coarsen(struct mesh_order *mesh, const struct v3 *position_m, int vertex_count,
+		 float cell_m, struct v3 *coarse_m);
+
 bool room_open(struct draw *draw, char fault[200]);
 void room_release(struct draw *draw);
 void room_floor_changed(struct draw *draw, const struct body *body);
-void room_draw(struct draw *draw, const struct rect *pane);
+void room_copy(struct draw *draw, const struct rect *pane);
+void room_draw(struct draw *draw);
 
 bool body_open(struct draw *draw, char fault[200]);
 void body_release(struct draw *draw);
 void body_upload(struct draw *draw, const struct body *body);
-void body_bind(const struct draw *draw);
+void body_cast(const struct draw *draw);
 void body_draw(struct draw *draw);
 
 bool cloth_open(struct draw *draw, char fault[200]);
@@ -249,6 +278,20 @@ void marks_add(struct draw *draw, const struct ui *ui, const struct session *ses
 void hand_add(struct draw *draw, const struct ui *ui, const struct session *session);
 void bones_add(struct draw *draw, const struct body *body);
 
-void upload_draw(struct draw *draw, struct upload *upload, const struct layer *layer);
+bool plate_open(struct draw *draw, struct plate *plate, int width, int height);
+
+/* Takes a rectangle of a picture (top row first, cairo's bytes) of the plate's size. */
+void plate_upload(struct draw *draw, struct plate *plate, const uint8_t *pixels, int stride,
+		  const struct rect *rect);
+
+/* Shows a rectangle of the plate at screen position x, y: copied, or blended as GL is set. */
+void plate_copy(const struct draw *draw, const struct plate *plate, const struct rect *from, int x,
+		int y);
+void plate_quad(const struct draw *draw, const struct plate *plate, const struct rect *from, int x,
+		int y);
+
+void layer_take(struct draw *draw, struct plate *plate, const struct layer *layer);
+void layer_draw(struct draw *draw, const struct plate *plate, const struct layer *layer,
+		bool opaque);
 
 #endif

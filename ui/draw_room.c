@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-enum { FLOOR_SIZE = 96, BACKDROP_MAX = 4096 };
+enum { FLOOR_SIZE = 96 };
 
 static const char quad_vertex_source[] =
 	"uniform vec4 u_place, u_cut;\n" /* scale, shift */
@@ -51,7 +51,6 @@ bool room_open(struct draw *draw, char fault[200])
 	glGenBuffers(1, &room->quad);
 	glBindBuffer(GL_ARRAY_BUFFER, room->quad);
 	glBufferData(GL_ARRAY_BUFFER, sizeof square, square, GL_STATIC_DRAW);
-	room->backdrop = gl_texture(GL_NEAREST, GL_CLAMP_TO_EDGE);
 	room->floor = gl_texture(GL_LINEAR, GL_CLAMP_TO_EDGE);
 	return true;
 }
@@ -75,26 +74,23 @@ static void backdrop_make(struct room *room, int width, int height)
 	for (int y = 0; y < height; y++) {
 		for (int x = 0; x < width; x++) {
 			float u = ((float)x + 0.5f) / (float)width - 0.5f;
-			float v = ((float)y + 0.5f) / (float)height - 0.60f; /* from below */
+			float v = ((float)y + 0.5f) / (float)height - 0.40f;
 			float round = float_min((u * u * 1.1f + v * v * 1.35f) * 2.0f, 1.0f);
-			float low = float_clamp((0.30f - ((float)y + 0.5f) / (float)height) * 3.4f,
+			float low = float_clamp((((float)y + 0.5f) / (float)height - 0.70f) * 3.4f,
 						0.0f, 1.0f);
 			float fall = round * (1.0f - 0.30f * low * low * (3.0f - 2.0f * low));
 			float noise = (float)(scatter_next(&scatter) >> 8 & 0xffff) / 65536.0f;
 			uint8_t *pixel = room->pixels + ((size_t)y * (size_t)width + (size_t)x) * 4;
-			pixel[0] = backdrop_channel(look_red(LOOK_ROOM_LIGHT),
+			pixel[2] = backdrop_channel(look_red(LOOK_ROOM_LIGHT),
 						    look_red(LOOK_ROOM_DARK) - 0.03f, fall, noise);
 			pixel[1] = backdrop_channel(look_green(LOOK_ROOM_LIGHT),
 						    look_green(LOOK_ROOM_DARK) - 0.03f, fall,
 						    noise);
-			pixel[2] = backdrop_channel(look_blue(LOOK_ROOM_LIGHT),
+			pixel[0] = backdrop_channel(look_blue(LOOK_ROOM_LIGHT),
 						    look_blue(LOOK_ROOM_DARK) - 0.03f, fall, noise);
 			pixel[3] = 255;
 		}
 	}
-	glBindTexture(GL_TEXTURE_2D, room->backdrop);
-	glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
-		     room->pixels);
 }
 
 /* The shadow under the feet: every body vertex near the floor darkens the texels below it, the
@@ -141,31 +137,37 @@ void room_floor_changed(struct draw *draw, const struct body *body)
 	glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
 }
 
-void room_draw(struct draw *draw, const struct rect *pane)
+void room_copy(struct draw *draw, const struct rect *pane)
+{
+	struct plate *plate = &draw->room.backdrop;
+	struct rect all = {0, 0, int_min(pane->w, draw->width), int_min(pane->h, draw->height)};
+	if (plate->width != all.w || plate->height != all.h) {
+		if (plate->texture)
+			glDeleteTextures(1, &plate->texture);
+		if (plate->framebuffer)
+			glDeleteFramebuffers(1, &plate->framebuffer);
+		plate_open(draw, plate, all.w, all.h);
+		backdrop_make(&draw->room, all.w, all.h);
+		plate_upload(draw, plate, draw->room.pixels, all.w * 4, &all);
+	}
+	plate_copy(draw, plate, &all, pane->x, pane->y);
+}
+
+void room_draw(struct draw *draw)
 {
 	struct room *room = &draw->room;
-	int width = int_min(pane->w, draw->width), height = int_min(pane->h, draw->height);
-	if (room->pane.w != width || room->pane.h != height) {
-		backdrop_make(room, width, height);
-		room->pane = (struct rect){0, 0, width, height};
-	}
+	if (draw->camera.eye_m.y <= 0.0f)
+		return;
 	glDisable(GL_DEPTH_TEST);
+	glEnable(GL_BLEND);
 	glBindBuffer(GL_ARRAY_BUFFER, room->quad);
 	gl_attributes(1u << AT_PLACE);
 	gl_floats(AT_PLACE, 2, 8, 0);
-	glUseProgram(room->program);
-	glUniform4f(room->place, 2.0f, 2.0f, -1.0f, -1.0f);
-	glUniform4f(room->cut, 1.0f, 1.0f, 0.0f, 0.0f);
-	glBindTexture(GL_TEXTURE_2D, room->backdrop);
+	glUseProgram(room->floor_program);
+	glUniformMatrix4fv(room->floor_clip, 1, GL_FALSE, draw->camera.world_to_clip);
+	glUniform1f(room->floor_half, room->floor_half_m);
+	glBindTexture(GL_TEXTURE_2D, room->floor);
 	glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-	if (draw->camera.eye_m.y > 0.0f) {
-		glEnable(GL_BLEND);
-		glUseProgram(room->floor_program);
-		glUniformMatrix4fv(room->floor_clip, 1, GL_FALSE, draw->camera.world_to_clip);
-		glUniform1f(room->floor_half, room->floor_half_m);
-		glBindTexture(GL_TEXTURE_2D, room->floor);
-		glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-		glDisable(GL_BLEND);
-	}
+	glDisable(GL_BLEND);
 	glEnable(GL_DEPTH_TEST);
 }

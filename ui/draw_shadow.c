@@ -47,11 +47,8 @@ void shadow_draw(struct draw *draw)
 	glPolygonOffset(2.0f, 160.0f);
 	glUseProgram(shadow->program);
 	glUniformMatrix4fv(shadow->clip, 1, GL_FALSE, draw->camera.world_to_light);
-	if (draw->body.index_count) {
-		body_bind(draw);
-		gl_attributes(1u << AT_POSITION);
-		glDrawElements(GL_TRIANGLES, draw->body.index_count, GL_UNSIGNED_SHORT, NULL);
-	}
+	if (draw->body.index_count)
+		body_cast(draw);
 	if (draw->cloth.index_count) {
 		cloth_bind(draw);
 		gl_attributes(1u << AT_POSITION);

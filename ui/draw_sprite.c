@@ -65,6 +65,7 @@ static void number_paint(cairo_t *cairo, int number)
 /* White, tinted when drawn: a wide one as halo, a narrow one on top. */
 static void ring_paint(cairo_t *cairo, double width)
 {
+	cairo_new_path(cairo);
 	cairo_set_line_width(cairo, width);
 	cairo_set_source_rgba(cairo, 1, 1, 1, 1);
 	cairo_arc(cairo, 0, 0, 26, 0, 6.2832);
