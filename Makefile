@@ -27,7 +27,7 @@ DRIVER_VOCABULARY := arena base edit input journal limits triangle vec
 
 # The core may ask the C library for these and for nothing else: no heap, no clock, no files, no
 # libm function whose last bit differs between systems.
-CORE_IMPORTS := memcpy memset memmove memcmp sqrtf must_fail
+CORE_IMPORTS := memcpy memset memmove memcmp strlen sqrtf must_fail
 
 CFLAGS_common   := -std=c17 -D_GNU_SOURCE -g -MMD -MP -ffp-contract=off -fno-strict-aliasing \
                    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes \
