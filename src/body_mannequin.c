@@ -136,7 +136,7 @@ static void lay_arm(struct maker *maker)
 {
 	struct sheet *sheet = &maker->sheet;
 	struct loft *loft = &maker->arm;
-	struct grain grain = {{0.10f, 0.38f}, {0.0135f, 0.0085f}};
+	struct grain grain = {{0.10f, 0.38f}, {0.0135f, 0.0078f}};
 	struct ring ring;
 	float last = loft_length(loft) - 0.006f;
 	find_armpit(maker);
@@ -165,15 +165,19 @@ static void lay_top(struct maker *maker)
 static void smooth(struct maker *maker)
 {
 	static const struct fair_spot spot[] = {
-		{{0.158f, 1.295f, -0.015f}, 0.075f, 120}, /* armpit */
+		{{0.158f, 1.295f, -0.015f}, 0.080f, 180}, /* armpit */
 		{{0.205f, 1.340f, -0.010f}, 0.080f, 30},  /* deltoid */
-		{{0.000f, 0.815f, 0.005f}, 0.110f, 150},  /* crotch */
+		{{0.315f, 1.170f, -0.015f}, 0.070f, 20},  /* elbow */
+		{{0.000f, 1.440f, -0.020f}, 0.100f, 25},  /* neck */
+		{{0.000f, 0.815f, 0.015f}, 0.120f, 300},  /* crotch */
 		{{0.120f, 0.825f, 0.000f}, 0.140f, 30},   /* hip line */
-		{{0.200f, 0.850f, 0.000f}, 9.0f, 6},      /* everywhere */
+		{{0.100f, 0.088f, 0.035f}, 0.050f, 40},   /* instep */
+		{{0.100f, 0.015f, -0.030f}, 0.060f, 12},  /* heel */
+		{{0.200f, 0.850f, 0.000f}, 9.0f, 10},     /* everywhere */
 	};
 	for (int i = 0; i < COUNT_OF(spot); i++)
 		fair_bend(&maker->sheet, &maker->fair, &spot[i]);
-	fair_slide(&maker->sheet, &maker->fair, 8);
+	fair_slide(&maker->sheet, &maker->fair, 12);
 }
 
 /* Feet at 0 with flat soles, head at HEIGHT_M. */
@@ -214,7 +218,8 @@ const char *body_build_mannequin(struct body *body)
 	struct maker maker = {
 		.sheet = {body->position_m, body->triangle, 0, 0, BODY_VERTICES_MAX,
 			  BODY_TRIANGLES_MAX},
-		.fair = {body->normal, body->face_normal, body->star_first},
+		.fair = {body->normal, body->face_normal, body->star_first, body->star,
+			 body->neighbour, 0, 0},
 	};
 	loft_init(&maker.trunk, TRUNK, COUNT_OF(TRUNK), true);
 	loft_init(&maker.top, TOP, COUNT_OF(TOP), true);

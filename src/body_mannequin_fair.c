@@ -1,40 +1,61 @@
 #include "mannequin_fair.h"
 
-/* out = middle of the neighbours minus the vertex, of any vector field that the mirror x -> -x maps
+#define EDGE_MAX_M 0.045f /* longer than any edge of the sheet */
+
+static bool on_rim(const struct sheet *sheet, int vertex)
+{
+	return sheet->position_m[vertex].x == 0.0f;
+}
+
+/* Everything that a spot's vertices need: their neighbours and the neighbours of those. */
+static void choose(const struct sheet *sheet, struct fair *fair, struct v3 middle_m, float radius_m)
+{
+	fair->vertex_count = 0;
+	fair->triangle_count = 0;
+	for (int v = 0; v < sheet->vertex_count; v++) {
+		fair->valence[v] = 0;
+		if (v3_distance(sheet->position_m[v], middle_m) < radius_m + 2.0f * EDGE_MAX_M)
+			fair->vertex[fair->vertex_count++] = v;
+	}
+	for (int t = 0; t < sheet->triangle_count; t++) {
+		float nearest = 1e9f;
+		for (int k = 0; k < 3; k++) {
+			int v = sheet->triangle[t].v[k];
+			float d = v3_distance(sheet->position_m[v], middle_m);
+			nearest = float_min(nearest, d);
+			fair->valence[v] += on_rim(sheet, v) ? 2 : 1;
+		}
+		if (nearest < radius_m + EDGE_MAX_M)
+			fair->triangle[fair->triangle_count++] = t;
+	}
+}
+
+/* out = middle of the neighbours minus the vertex, of a vector field that the mirror x -> -x maps
  * to itself. In a fan of triangles each neighbour starts exactly one edge a -> next; at the rim
  * x = 0 the mirrored triangles supply the other half. */
-static void laplacian(const struct sheet *sheet, const int *valence, const struct v3 *field,
+static void laplacian(const struct sheet *sheet, const struct fair *fair, const struct v3 *field,
 		      struct v3 *out)
 {
-	for (int v = 0; v < sheet->vertex_count; v++)
-		out[v] = (struct v3){0};
-	for (int t = 0; t < sheet->triangle_count; t++) {
+	for (int i = 0; i < fair->vertex_count; i++)
+		out[fair->vertex[i]] = (struct v3){0};
+	for (int i = 0; i < fair->triangle_count; i++) {
+		const int *v = sheet->triangle[fair->triangle[i]].v;
 		for (int k = 0; k < 3; k++) {
-			int a = sheet->triangle[t].v[k], next = sheet->triangle[t].v[(k + 1) % 3];
-			out[a] = v3_add(out[a], field[next]);
-			if (sheet->position_m[a].x == 0.0f) {
-				struct v3 image = field[sheet->triangle[t].v[(k + 2) % 3]];
+			int a = v[k];
+			out[a] = v3_add(out[a], field[v[(k + 1) % 3]]);
+			if (on_rim(sheet, a)) {
+				struct v3 image = field[v[(k + 2) % 3]];
 				image.x = -image.x;
 				out[a] = v3_add(out[a], image);
 			}
 		}
 	}
-	for (int v = 0; v < sheet->vertex_count; v++) {
-		out[v] = v3_sub(v3_scale(out[v], 1.0f / (float)valence[v]), field[v]);
-		if (sheet->position_m[v].x == 0.0f)
+	for (int i = 0; i < fair->vertex_count; i++) {
+		int v = fair->vertex[i];
+		out[v] = v3_sub(v3_scale(out[v], 1.0f / (float)fair->valence[v]), field[v]);
+		if (on_rim(sheet, v))
 			out[v].x = 0.0f;
 	}
-}
-
-static void count_neighbours(const struct sheet *sheet, int *valence)
-{
-	for (int v = 0; v < sheet->vertex_count; v++)
-		valence[v] = 0;
-	for (int t = 0; t < sheet->triangle_count; t++)
-		for (int k = 0; k < 3; k++) {
-			int a = sheet->triangle[t].v[k];
-			valence[a] += sheet->position_m[a].x == 0.0f ? 2 : 1;
-		}
 }
 
 static float spot_weight(const struct fair_spot *spot, struct v3 position_m)
@@ -47,14 +68,15 @@ static float spot_weight(const struct fair_spot *spot, struct v3 position_m)
 void fair_bend(struct sheet *sheet, struct fair *fair, const struct fair_spot *spot)
 {
 	const float damping = 0.22f; /* below 1 / 4, the stable limit */
-	count_neighbours(sheet, fair->valence);
+	choose(sheet, fair, spot->middle_m, spot->radius_m);
 	for (int round = 0; round < spot->rounds; round++) {
-		laplacian(sheet, fair->valence, sheet->position_m, fair->sum);
-		laplacian(sheet, fair->valence, fair->sum, fair->bend);
-		for (int v = 0; v < sheet->vertex_count; v++)
-			sheet->position_m[v] = v3_mad(
-				sheet->position_m[v], fair->bend[v],
-				-damping * spot_weight(spot, sheet->position_m[v]));
+		laplacian(sheet, fair, sheet->position_m, fair->sum);
+		laplacian(sheet, fair, fair->sum, fair->bend);
+		for (int i = 0; i < fair->vertex_count; i++) {
+			struct v3 *p = &sheet->position_m[fair->vertex[i]];
+			float weight = damping * spot_weight(spot, *p);
+			*p = v3_mad(*p, fair->bend[fair->vertex[i]], -weight);
+		}
 	}
 }
 
@@ -71,7 +93,7 @@ static void vertex_normals(const struct sheet *sheet, struct v3 *normal)
 			normal[v[k]] = v3_add(normal[v[k]], n);
 	}
 	for (int v = 0; v < sheet->vertex_count; v++) {
-		if (sheet->position_m[v].x == 0.0f)
+		if (on_rim(sheet, v))
 			normal[v].x = 0.0f;
 		normal[v] = v3_normalize(normal[v]);
 	}
@@ -79,9 +101,9 @@ static void vertex_normals(const struct sheet *sheet, struct v3 *normal)
 
 void fair_slide(struct sheet *sheet, struct fair *fair, int rounds)
 {
-	count_neighbours(sheet, fair->valence);
+	choose(sheet, fair, (struct v3){0}, 9.0f);
 	for (int round = 0; round < rounds; round++) {
-		laplacian(sheet, fair->valence, sheet->position_m, fair->sum);
+		laplacian(sheet, fair, sheet->position_m, fair->sum);
 		vertex_normals(sheet, fair->bend);
 		for (int v = 0; v < sheet->vertex_count; v++) {
 			struct v3 n = fair->bend[v], l = fair->sum[v];

@@ -4,10 +4,12 @@
 
 #include "mannequin_loft.h"
 
-/* Scratch, one entry a vertex. */
+/* Scratch: one entry for each vertex of the sheet, `triangle` one for each triangle. */
 struct fair {
 	struct v3 *sum, *bend;
 	int *valence;
+	int *vertex, *triangle; /* those at work */
+	int vertex_count, triangle_count;
 };
 
 /* A ball in which fairing works, fully in the middle and not at all from its radius on. */

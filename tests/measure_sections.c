@@ -94,15 +94,17 @@ static void mix(struct mesh *mesh, const struct mesh *other)
 					       (1.0 - FEMALE_SHARE) * other->position[v][k];
 }
 
-/* Display figures stand closer and have longer legs than people. */
+/* Display figures stand closer and have longer and straighter legs than people. */
 static void pose(struct mesh *mesh)
 {
-	const double hip_y = 0.86, stretch = 1.05, together = 0.100;
+	const double hip_y = 0.86, stretch = 1.05, together = 0.100, calf = 0.012;
 	for (int v = 0; v < mesh->vertex_count; v++) {
 		double *p = mesh->position[v], below = fmax(hip_y - p[1], 0.0);
 		if (fabs(p[0]) < 0.30) {
 			double side = smooth_step(-0.02, 0.02, p[0]) * 2.0 - 1.0;
+			double shin = (p[1] - 0.32) / 0.13;
 			p[0] -= side * together * below * below / (hip_y * (below + 0.04));
+			p[0] -= side * calf * exp(-shin * shin);
 		}
 		p[1] += (stretch - 1.0) * fmin(p[1], hip_y);
 		p[2] += 0.075;
@@ -122,6 +124,7 @@ struct ring {
 	double origin[3], pitch, roll, cone;
 	double reach, x_low, x_high; /* metres; 0: no limit */
 	int order, flags;
+	double front_mm; /* added to the radius in front, fading to nothing behind */
 };
 
 struct frame {
@@ -214,7 +217,9 @@ static void measure_radii(const struct mesh *mesh, const struct ring *ring, doub
 	for (int i = 0; i < RAYS; i++) {
 		double d[3];
 		ray_direction(ring, 360.0 * RADIANS * i / RAYS, d);
-		radius[i] = limit(ring, d, cast(mesh, ring, d));
+		double front = (1.0 + cos(360.0 * RADIANS * i / RAYS)) / 2.0;
+		radius[i] = limit(ring, d, cast(mesh, ring, d)) +
+			    ring->front_mm / 1000.0 * front * front;
 	}
 }
 
@@ -248,7 +253,7 @@ static struct row measure(const struct mesh *mesh, struct ring ring, bool symmet
 {
 	double radius[RAYS];
 	struct row row = {0};
-	for (int i = 0; i < 3; i++) {
+	for (int i = 0; i < (ring.flags & CENTRE ? 3 : 1); i++) {
 		measure_radii(mesh, &ring, radius);
 		if (ring.flags & CENTRE && i < 2)
 			centre(&ring, radius);
@@ -264,72 +269,78 @@ static struct row measure(const struct mesh *mesh, struct ring ring, bool symmet
 }
 
 static const struct ring TRUNK[] = {
-	{{0, 0.835, 0.00}, 0, 0, 0, 0, 0, 0, 8, 0},  {{0, 0.860, 0.00}, 0, 0, 0, 0, 0, 0, 8, 0},
-	{{0, 0.885, 0.00}, 0, 0, 0, 0, 0, 0, 8, 0},  {{0, 0.910, 0.00}, 0, 0, 0, 0, 0, 0, 8, 0},
-	{{0, 0.945, 0.00}, 0, 0, 0, 0, 0, 0, 8, 0},  {{0, 0.985, 0.00}, 0, 0, 0, 0, 0, 0, 8, 0},
-	{{0, 1.020, 0.00}, 0, 0, 0, 0, 0, 0, 8, 0},  {{0, 1.055, 0.00}, 0, 0, 0, 0, 0, 0, 8, 0},
-	{{0, 1.090, 0.01}, 0, 0, 0, 0, 0, 0, 8, 0},  {{0, 1.125, 0.01}, 0, 0, 0, 0, 0, 0, 8, 0},
-	{{0, 1.160, 0.01}, 0, 0, 0, 0, 0, 0, 8, 0},  {{0, 1.195, 0.015}, 0, 0, 0, 0, 0, 0, 8, 0},
-	{{0, 1.225, 0.015}, 0, 0, 0, 0, 0, 0, 8, 0}, {{0, 1.255, 0.01}, 0, 2.5, 0, 0, 0, 0, 8, 0},
-	{{0, 1.280, 0.005}, 0, 5, 0, 0, 0, 0, 8, 0},
+	{{0, 0.835, 0.00}, 0, 0, 0, 0, 0, 0, 8, 0, 0},
+	{{0, 0.860, 0.00}, 0, 0, 0, 0, 0, 0, 8, 0, 0},
+	{{0, 0.885, 0.00}, 0, 0, 0, 0, 0, 0, 8, 0, 0},
+	{{0, 0.910, 0.00}, 0, 0, 0, 0, 0, 0, 8, 0, 0},
+	{{0, 0.945, 0.00}, 0, 0, 0, 0, 0, 0, 8, 0, 0},
+	{{0, 0.985, 0.00}, 0, 0, 0, 0, 0, 0, 8, 0, 0},
+	{{0, 1.020, 0.00}, 0, 0, 0, 0, 0, 0, 8, 0, 0},
+	{{0, 1.055, 0.00}, 0, 0, 0, 0, 0, 0, 8, 0, 0},
+	{{0, 1.090, 0.01}, 0, 0, 0, 0, 0, 0, 8, 0, 0},
+	{{0, 1.125, 0.01}, 0, 0, 0, 0, 0, 0, 8, 0, 0},
+	{{0, 1.160, 0.01}, 0, 0, 0, 0, 0, 0, 8, 0, 0},
+	{{0, 1.195, 0.015}, 0, 0, 0, 0, 0, 0, 8, 0, 0},
+	{{0, 1.225, 0.015}, 0, 0, 0, 0, 0, 0, 8, 0, 0},
+	{{0, 1.255, 0.01}, 0, 2.5, 0, 0, 0, 0, 8, 0, 0},
+	{{0, 1.286, 0.005}, 0, 4, 0, 0, 0, 0.152, 8, 0, 0},
 };
 
 /* The yoke over the shoulders, the neck and the head are one loft. */
 static const struct ring TOP[] = {
-	{{0, 1.280, 0.005}, 0, 0, 20, 0, 0, 0, 8, 0},
-	{{0, 1.290, 0.005}, 0, 0, 35, 0, 0, 0, 8, 0},
-	{{0, 1.310, 0.000}, 0, 0, 45, 0, 0, 0, 8, 0},
-	{{0, 1.335, -0.005}, 0, 0, 52, 0, 0, 0, 6, 0},
-	{{0, 1.375, -0.008}, 0, 0, 50, 0, 0, 0, 5, 0},
-	{{0, 1.425, -0.008}, -5, 0, 35, 0, 0, 0, 4, 0},
-	{{0, 1.465, -0.003}, -8, 0, 15, 0, 0, 0, 4, 0},
-	{{0, 1.500, 0.000}, -25, 0, 0, 0.13, 0, 0.060, 4, FAR},
-	{{0, 1.515, 0.005}, -20, 0, 0, 0.13, 0, 0.062, 4, FAR},
-	{{0, 1.535, 0.010}, -10, 0, 0, 0.13, 0, 0.065, 4, FAR},
-	{{0, 1.565, 0.015}, -5, 0, 0, 0.13, 0, 0.069, 4, FAR},
-	{{0, 1.600, 0.015}, 0, 0, 0, 0.13, 0, 0.073, 4, FAR},
-	{{0, 1.620, 0.015}, 0, 0, 10, 0.13, 0, 0.073, 4, FAR},
-	{{0, 1.620, 0.015}, 0, 0, 32, 0.13, 0, 0, 4, FAR},
-	{{0, 1.620, 0.015}, 0, 0, 52, 0.13, 0, 0, 3, FAR},
-	{{0, 1.620, 0.015}, 0, 0, 72, 0.13, 0, 0, 2, FAR},
-	{{0, 1.620, 0.015}, 0, 0, 90, 0.13, 0, 0, 0, FAR},
+	{{0, 1.280, 0.005}, 0, 2, 18, 0, 0, 0, 8, 0, 0},
+	{{0, 1.290, 0.005}, 0, 0, 35, 0, 0, 0, 8, 0, 0},
+	{{0, 1.310, 0.000}, 0, 0, 45, 0, 0, 0, 8, 0, 0},
+	{{0, 1.335, -0.005}, 0, 0, 52, 0, 0, 0, 6, 0, 0},
+	{{0, 1.375, -0.008}, 0, 0, 50, 0, 0, 0, 5, 0, 0},
+	{{0, 1.425, -0.008}, -5, 0, 35, 0, 0, 0, 4, 0, 0},
+	{{0, 1.465, -0.003}, -8, 0, 15, 0, 0, 0, 4, 0, 0},
+	{{0, 1.500, 0.000}, -25, 0, 0, 0.13, 0, 0.054, 3, FAR, -4},
+	{{0, 1.515, 0.005}, -20, 0, 0, 0.13, 0, 0.055, 3, FAR, -9},
+	{{0, 1.535, 0.010}, -10, 0, 0, 0.13, 0, 0.060, 3, FAR, -9},
+	{{0, 1.565, 0.015}, -5, 0, 0, 0.13, 0, 0.067, 3, FAR, -5},
+	{{0, 1.600, 0.015}, 0, 0, 0, 0.13, 0, 0.073, 3, FAR, 0},
+	{{0, 1.620, 0.015}, 0, 0, 10, 0.13, 0, 0.075, 3, FAR, 0},
+	{{0, 1.620, 0.015}, 0, 0, 32, 0.13, 0, 0, 3, FAR, 0},
+	{{0, 1.620, 0.015}, 0, 0, 52, 0.13, 0, 0, 3, FAR, 0},
+	{{0, 1.620, 0.015}, 0, 0, 72, 0.13, 0, 0, 2, FAR, 0},
+	{{0, 1.620, 0.015}, 0, 0, 90, 0.13, 0, 0, 0, FAR, 0},
 };
 
 /* From the toes through heel and ankle up to the line of a leotard. */
 static const struct ring LEG[] = {
-	{{0.090, 0.020, 0.100}, 90, 0, -90, 0.042, 0, 0, 0, FAR | SOLE},
-	{{0.090, 0.020, 0.100}, 90, 0, -60, 0.045, 0, 0, 2, FAR | SOLE},
-	{{0.092, 0.020, 0.100}, 90, 0, -28, 0.05, 0, 0, 5, FAR | SOLE},
-	{{0.094, 0.021, 0.095}, 90, 0, 0, 0.06, 0, 0, 5, FAR | SOLE},
-	{{0.096, 0.023, 0.072}, 90, 0, 0, 0.06, 0, 0, 6, FAR | SOLE},
-	{{0.098, 0.028, 0.045}, 90, 0, 0, 0.08, 0, 0, 6, FAR | SOLE},
-	{{0.099, 0.0374, 0.0352}, 82, 0, 0, 0.10, 0, 0, 6, FAR | SOLE},
-	{{0.099, 0.0424, 0.0177}, 64, 0, 0, 0.10, 0, 0, 6, SOLE},
-	{{0.099, 0.0515, 0.0006}, 46, 0, 0, 0.10, 0, 0, 6, SOLE},
-	{{0.099, 0.067, -0.006}, 33, 0, 0, 0.10, 0, 0, 6, 0},
-	{{0.100, 0.0867, -0.007}, 20, 0, 0, 0.10, 0, 0, 6, 0},
-	{{0.102, 0.110, -0.008}, 8, 0, 0, 0.10, 0, 0, 6, 0},
-	{{0.099, 0.140, -0.004}, 0, 0, 0, 0.10, 0, 0, 5, CENTRE},
-	{{0.100, 0.185, 0.000}, 0, 0, 0, 0.10, 0, 0, 5, CENTRE},
-	{{0.100, 0.235, 0.000}, 0, 0, 0, 0.10, 0, 0, 5, CENTRE},
-	{{0.100, 0.285, 0.000}, 0, 0, 0, 0.10, 0, 0, 5, CENTRE},
-	{{0.100, 0.335, 0.000}, 0, 0, 0, 0.10, 0, 0, 5, CENTRE},
-	{{0.100, 0.385, 0.000}, 0, 0, 0, 0.10, 0, 0, 5, CENTRE},
-	{{0.100, 0.430, 0.000}, 0, 0, 0, 0.10, 0, 0, 5, CENTRE},
-	{{0.100, 0.470, 0.000}, 0, 0, 0, 0.10, 0, 0, 5, CENTRE},
-	{{0.100, 0.510, 0.000}, 0, 0, 0, 0.10, 0, 0, 5, CENTRE},
-	{{0.100, 0.560, 0.000}, 0, 0, 0, 0.12, 0, 0, 5, CENTRE},
-	{{0.100, 0.620, 0.000}, 0, 0, 0, 0.12, 0, 0, 5, CENTRE},
-	{{0.095, 0.680, 0.000}, 0, 0, 0, 0.14, 0, 0, 5, CENTRE},
-	{{0.095, 0.735, 0.000}, 0, 0, 0, 0.14, 0, 0, 5, CENTRE},
-	{{0.095, 0.775, 0.000}, 0, 3, 0, 0.16, 0.006, 0, 6, CENTRE},
-	{{0.092, 0.800, 0.000}, 0, 6, 0, 0.16, 0.004, 0, 6, 0},
-	{{0.090, 0.821, 0.000}, 0, 9, 0, 0.16, 0.002, 0, 6, 0},
+	{{0.090, 0.020, 0.100}, 90, 0, -90, 0.042, 0, 0, 0, FAR | SOLE, 0},
+	{{0.090, 0.020, 0.100}, 90, 0, -60, 0.045, 0, 0, 2, FAR | SOLE, 0},
+	{{0.092, 0.020, 0.100}, 90, 0, -28, 0.05, 0, 0, 5, FAR | SOLE, 0},
+	{{0.094, 0.021, 0.095}, 90, 0, 0, 0.06, 0, 0, 5, FAR | SOLE, 0},
+	{{0.096, 0.023, 0.072}, 90, 0, 0, 0.06, 0, 0, 6, FAR | SOLE, 0},
+	{{0.098, 0.028, 0.045}, 90, 0, 0, 0.08, 0, 0, 6, FAR | SOLE, 0},
+	{{0.099, 0.0374, 0.0352}, 82, 0, 0, 0.10, 0, 0, 6, FAR | SOLE, 0},
+	{{0.099, 0.0424, 0.0177}, 64, 0, 0, 0.10, 0, 0, 6, SOLE, 0},
+	{{0.099, 0.0515, 0.0006}, 46, 0, 0, 0.10, 0, 0, 6, SOLE, 0},
+	{{0.099, 0.067, -0.006}, 33, 0, 0, 0.10, 0, 0, 6, 0, 0},
+	{{0.100, 0.0867, -0.007}, 20, 0, 0, 0.10, 0, 0, 6, 0, 0},
+	{{0.102, 0.110, -0.008}, 8, 0, 0, 0.10, 0, 0, 6, 0, 0},
+	{{0.099, 0.140, -0.004}, 0, 0, 0, 0.10, 0, 0, 5, CENTRE, 0},
+	{{0.100, 0.185, 0.000}, 0, 0, 0, 0.10, 0, 0, 5, CENTRE, 0},
+	{{0.100, 0.235, 0.000}, 0, 0, 0, 0.10, 0, 0, 5, CENTRE, 0},
+	{{0.100, 0.285, 0.000}, 0, 0, 0, 0.10, 0, 0, 5, CENTRE, 0},
+	{{0.100, 0.335, 0.000}, 0, 0, 0, 0.10, 0, 0, 5, CENTRE, 0},
+	{{0.100, 0.385, 0.000}, 0, 0, 0, 0.10, 0, 0, 5, CENTRE, 0},
+	{{0.100, 0.430, 0.000}, 0, 0, 0, 0.10, 0, 0, 5, CENTRE, 0},
+	{{0.100, 0.495, 0.000}, 0, 0, 0, 0.10, 0, 0, 5, CENTRE, 0},
+	{{0.100, 0.560, 0.000}, 0, 0, 0, 0.12, 0, 0, 5, CENTRE, 0},
+	{{0.100, 0.620, 0.000}, 0, 0, 0, 0.12, 0, 0, 5, CENTRE, 0},
+	{{0.095, 0.680, 0.000}, 0, 0, 0, 0.14, 0, 0, 5, CENTRE, 0},
+	{{0.095, 0.735, 0.000}, 0, 0, 0, 0.14, 0, 0, 5, CENTRE, 0},
+	{{0.095, 0.775, 0.000}, 0, 3, 0, 0.16, 0.006, 0, 6, CENTRE, 0},
+	{{0.092, 0.800, 0.000}, 0, 6, 0, 0.16, 0.004, 0, 6, 0, 0},
+	{{0.090, 0.821, 0.000}, 0, 9, 0, 0.16, 0.002, 0, 6, 0, 0},
 };
 
 /* The seam between the legs, in the plane x = 0: from front (angle 0) to back (180 degrees). */
 static const struct ring CROTCH[] = {
-	{{0, 0.835, 0.00}, 0, -90, 0, 0.12, 0, 0, 6, 0},
+	{{0, 0.835, 0.00}, 0, -90, 0, 0.12, 0, 0, 6, 0, 0},
 };
 
 /* The arm is measured along its own bent axis and laid along a nearly straight one. */
@@ -362,10 +373,10 @@ struct hand_ring {
 };
 
 static const struct hand_ring HAND[] = {
-	{28, 26.0, 18.5, 0, 0, 0},    {48, 31.5, 17.5, 5, 0, 0},    {66, 35.0, 16.5, 11, 1, 0},
-	{82, 36.5, 15.5, 11, 2, 0},   {96, 36.5, 14.5, 3, 4, 0},    {112, 35.5, 13.5, 0, 6, 0},
-	{130, 32.5, 12.0, 0, 9, 0},   {146, 27.5, 10.5, 0, 12, 0},  {158, 21.5, 9.0, 0, 15, 0},
-	{158, 19.5, 10.0, 0, 15, 35}, {158, 16.0, 11.5, 0, 15, 65}, {158, 13.5, 13.5, 0, 15, 90},
+	{28, 25.0, 18.0, 1, 0, 0},    {48, 28.5, 15.5, 6, 0, 0},    {66, 31.5, 14.0, 11, 1, 0},
+	{82, 33.0, 13.0, 12, 2, 0},   {94, 33.5, 12.5, 8, 3.5, 0},  {106, 33.5, 12.0, 1, 5, 0},
+	{122, 32.0, 11.3, 0, 7.5, 0}, {140, 29.0, 10.3, 0, 11, 0},  {158, 23.0, 9.0, 0, 15, 0},
+	{163, 19.5, 9.5, 0, 16, 30},  {163, 14.5, 10.5, 0, 16, 62}, {163, 11.5, 11.5, 0, 16, 90},
 };
 
 static void aim(struct row *row, const double direction[3])
@@ -385,12 +396,23 @@ static struct row measure_arm(const struct mesh *mesh, const struct arm_ring *sp
 			      const double from[3], const double direction[3])
 {
 	struct row row = {0};
-	struct ring ring = {{0}, 0, 0, 0, spec->reach, 0, 0, spec->order, spec->flags};
+	struct ring ring = {{0}, 0, 0, 0, spec->reach, 0, 0, spec->order, spec->flags, 0};
 	aim(&row, direction);
 	along(from, direction, spec->along_mm, ring.origin);
 	ring.pitch = row.pitch;
 	ring.roll = row.roll;
 	return measure(mesh, ring, false);
+}
+
+/* A rectangle with half circles at both ends. */
+static double stadium(double half_width, double half_thickness, double angle)
+{
+	double straight = half_width - half_thickness, c = fabs(cos(angle)), s = fabs(sin(angle));
+	if (straight <= 0.0)
+		return half_thickness;
+	if (half_thickness * c <= straight * s)
+		return half_thickness / s;
+	return straight * c + sqrt(half_thickness * half_thickness - straight * straight * s * s);
 }
 
 static struct row draw_hand(const struct hand_ring *hand, const double wrist[3])
@@ -404,13 +426,13 @@ static struct row draw_hand(const struct hand_ring *hand, const double wrist[3])
 		row.origin[k] += f.e[1][k] * hand->curl_mm / 1000.0;
 	for (int i = 0; i < RAYS; i++) {
 		double a = 360.0 * RADIANS * i / RAYS, away = a > M_PI ? a - 2.0 * M_PI : a;
-		double u = cos(a) / hand->half_width_mm, v = sin(a) / hand->half_thickness_mm;
-		double thumb = (away - 0.25) / 0.38;
-		radius[i] = (1.0 / sqrt(u * u + v * v) + hand->thumb_mm * exp(-thumb * thumb)) /
+		double thumb = (away - 0.45) / 0.34;
+		radius[i] = (stadium(hand->half_width_mm, hand->half_thickness_mm, a) +
+			     hand->thumb_mm * exp(-thumb * thumb)) /
 			    1000.0;
 	}
 	row.cone = hand->cone;
-	harmonics(&row, radius, hand->cone == 90 ? 0 : 6, false);
+	harmonics(&row, radius, hand->cone == 90 ? 0 : ORDER_MAX, false);
 	return row;
 }
 
