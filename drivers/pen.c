@@ -65,9 +65,10 @@ void pen_describe(struct pen *pen, int device, const uint8_t *descriptor, int si
 	for (int i = 0; i < d->layout_count; i++)
 		tells_range &= d->layout[i].in_range.size > 0;
 	d->silence_us = tells_range ? SILENCE_MOVING_US : SILENCE_MOVING_SHORT_US;
-	/* The desktop's mouse is our own: it says when it leaves, and nothing while it rests. */
-	d->never_silent = size == mouse_descriptor_size &&
-			  !memcmp(descriptor, mouse_descriptor, (size_t)size);
+	/* The desktop's mouse is our own: exact, it says when it leaves, and nothing while it
+	 * rests. */
+	d->desktop = size == mouse_descriptor_size &&
+		     !memcmp(descriptor, mouse_descriptor, (size_t)size);
 }
 
 void pen_resize(struct pen *pen, int device, float width_mm, float height_mm)
@@ -113,7 +114,7 @@ static void sample_away(struct pen *pen, int device, int64_t time_us, struct fra
 static void silence_check(struct pen *pen, int device, int64_t now_us, struct frame_input *input)
 {
 	struct pen_device *d = &pen->device[device];
-	if (d->kind != DEVICE_PEN || d->state == PEN_AWAY || d->never_silent)
+	if (d->kind != DEVICE_PEN || d->state == PEN_AWAY || d->desktop)
 		return;
 	bool resting = v2_length(d->speed_mm_s) < RESTING_MM_S;
 	int64_t limit_us = resting ? SILENCE_RESTING_US : d->silence_us;
@@ -174,7 +175,7 @@ static struct v2 position_next(const struct pen *pen, struct pen_device *d,
 			       bool drawing, int64_t dt_us)
 {
 	struct v2 mm = pen_place_mm(pen, d, layout, f);
-	if (!d->placed)
+	if (!d->placed || d->desktop)
 		pen_filter_reset(d, mm);
 	else if (drawing && pen_jump_held(d, mm, dt_us))
 		return d->filtered_mm;

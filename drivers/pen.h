@@ -56,9 +56,9 @@ struct pen_device {
 
 	/* contact: the state, and what ends it */
 	enum pen_state state;
-	int64_t last_us;    /* of the last report with a position */
-	int64_t silence_us; /* so long after motion, and the pen is gone */
-	bool never_silent;
+	int64_t last_us;     /* of the last report with a position */
+	int64_t silence_us;  /* so long after motion, and the pen is gone */
+	bool desktop;        /* our own mouse: nothing to filter, and silence is rest */
 	int contact_reports; /* since the tip went down */
 
 	/* filter */

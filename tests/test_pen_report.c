@@ -192,6 +192,14 @@ static void check_silence(void)
 	CHECK(input.sample[0].barrel);
 	frame_read(60000000);
 	CHECK(input.sample_count == 0);
+	/* several moves in one frame carry one time: all are taken as they are */
+	reports = (struct frame_reports){2,
+					 {{0, 0, 7, {5, 0, 0x10, 0, 0x10, 0xff, 0x0f}},
+					  {0, 0, 7, {5, 0, 0x70, 0, 0x70, 0xff, 0x0f}}}};
+	frame_read(60000000);
+	CHECK(input.sample_count == 2);
+	CHECK_NEAR(input.sample[0].position_px.x, 240.0, 0.1);
+	CHECK_NEAR(input.sample[1].position_px.x, 1680.0, 0.1);
 }
 
 static void check_null_position(void)

@@ -1,0 +1,306 @@
+#include "board.h"
+
+#include <stdio.h>
+
+const struct board board_default = {
+	.button_line = {"wrap", "pin", "relax"},
+	.button_active_low = true,
+	.idle_s = 180,
+};
+
+const char board_text[] =
+	"# Board file of kitsuke. A line is a key, = and a value; # begins a comment.\n"
+	"# Every key may be left out: it then has the value that stands here.\n"
+	"\n"
+	"# Width and height of the display's picture in mm; auto: what the display says.\n"
+	"display_mm = auto\n"
+	"# How the picture is turned, degrees clockwise: 0, 90, 180 or 270.\n"
+	"rotation = 0\n"
+	"\n"
+	"# The GPIO lines of the three buttons by name (gpioinfo lists them); none: no button.\n"
+	"wrap = wrap\n"
+	"pin = pin\n"
+	"relax = relax\n"
+	"# yes: a pressed button connects its line to ground, and the line is pulled up.\n"
+	"active_low = yes\n"
+	"\n"
+	"# Work units that the solver may spend in a frame; auto: the program's own number.\n"
+	"# `kitsuke calibrate` measures it.\n"
+	"budget = auto\n"
+	"# The station starts anew after so many seconds without a touch; 0: never.\n"
+	"idle_s = 180\n"
+	"# en or ja.\n"
+	"language = en\n"
+	"\n"
+	"# Take only the tablet with these USB ids, like 256c:006d; any: the first pen found.\n"
+	"tablet = any\n"
+	"# Width and height of the tablet's active area in mm; auto: what the tablet says.\n"
+	"tablet_mm = auto\n";
+
+struct reader {
+	struct board *board;
+	int line;
+	char key[32], value[128];
+	unsigned seen; /* a bit a key */
+	char *fault;
+};
+
+static bool fault(struct reader *r, const char *remedy)
+{
+	snprintf(r->fault, 200, "line %d: %s = %.60s; %s", r->line, r->key, r->value, remedy);
+	return false;
+}
+
+/* --- values ----------------------------------------------------------------------------------- */
+
+/* One number at *at, moved behind it and the blanks around. */
+static bool number_cut(const char **at, float *number)
+{
+	float value = 0.0f, unit = 1.0f;
+	int digits = 0;
+	const char *c = *at;
+	for (; *c >= '0' && *c <= '9' && digits < 7; c++, digits++)
+		value = 10.0f * value + (float)(*c - '0');
+	if (*c == '.' && digits)
+		for (c++; *c >= '0' && *c <= '9' && digits < 7; c++, digits++) {
+			unit /= 10.0f;
+			value += unit * (float)(*c - '0');
+		}
+	if (!digits || (*c && *c != ' '))
+		return false;
+	while (*c == ' ')
+		c++;
+	*at = c;
+	*number = value;
+	return true;
+}
+
+static bool value_size_mm(struct reader *r, float *width_mm, float *height_mm)
+{
+	const char *at = r->value;
+	if (!strcmp(at, "auto")) {
+		*width_mm = *height_mm = 0.0f;
+		return true;
+	}
+	float width, height;
+	if (!number_cut(&at, &width) || !number_cut(&at, &height) || *at || width < 10.0f ||
+	    height < 10.0f || width > 5000.0f || height > 5000.0f)
+		return fault(r, "give width and height in mm, 10 to 5000, like 344 194, or auto");
+	*width_mm = width;
+	*height_mm = height;
+	return true;
+}
+
+static bool value_int(struct reader *r, int least, int most, int *value)
+{
+	const char *at = r->value;
+	float number;
+	char remedy[80];
+	bool whole = !strchr(at, '.') && number_cut(&at, &number) && !*at;
+	if (!whole || number < (float)least || number > (float)most) {
+		snprintf(remedy, sizeof remedy, "give a whole number from %d to %d", least, most);
+		return fault(r, remedy);
+	}
+	*value = (int)number;
+	return true;
+}
+
+static bool value_rotation(struct reader *r)
+{
+	static const char *words[] = {"0", "90", "180", "270"};
+	for (int i = 0; i < COUNT_OF(words); i++)
+		if (!strcmp(r->value, words[i])) {
+			r->board->rotation = 90 * i;
+			return true;
+		}
+	return fault(r, "give 0, 90, 180 or 270");
+}
+
+static bool value_line(struct reader *r, enum button button)
+{
+	char *line = r->board->button_line[button];
+	size_t size = strlen(r->value);
+	if (!strcmp(r->value, "none"))
+		size = 0;
+	if (size >= BOARD_NAME_MAX)
+		return fault(r, "a line's name has at most 63 characters");
+	memcpy(line, r->value, size);
+	line[size] = 0;
+	return true;
+}
+
+static bool value_yes(struct reader *r, bool *value)
+{
+	*value = !strcmp(r->value, "yes");
+	return *value || !strcmp(r->value, "no") || fault(r, "give yes or no");
+}
+
+static bool value_budget(struct reader *r)
+{
+	int units = 0;
+	if (strcmp(r->value, "auto") && !value_int(r, 1000, 9999999, &units))
+		return false;
+	r->board->budget_units = units;
+	return true;
+}
+
+static bool value_language(struct reader *r)
+{
+	bool japanese = !strcmp(r->value, "ja");
+	r->board->language = japanese ? BOARD_JAPANESE : BOARD_ENGLISH;
+	return japanese || !strcmp(r->value, "en") || fault(r, "give en or ja");
+}
+
+static bool value_tablet(struct reader *r)
+{
+	unsigned vendor = 0, product = 0;
+	int end = 0;
+	if (strcmp(r->value, "any") &&
+	    (sscanf(r->value, "%4x:%4x%n", &vendor, &product, &end) != 2 || r->value[end] ||
+	     strlen(r->value) != 9))
+		return fault(r, "give vendor and product in hex, like 256c:006d, or any");
+	r->board->tablet_vendor = (int)vendor;
+	r->board->tablet_product = (int)product;
+	return true;
+}
+
+/* --- lines ------------------------------------------------------------------------------------ */
+
+enum key {
+	KEY_DISPLAY,
+	KEY_ROTATION,
+	KEY_WRAP,
+	KEY_PIN,
+	KEY_RELAX,
+	KEY_ACTIVE_LOW,
+	KEY_BUDGET,
+	KEY_IDLE,
+	KEY_LANGUAGE,
+	KEY_TABLET,
+	KEY_TABLET_MM,
+	KEY_COUNT,
+};
+
+static const char *key_names[KEY_COUNT] = {
+	"display_mm", "rotation", "wrap",     "pin",    "relax",     "active_low",
+	"budget",     "idle_s",   "language", "tablet", "tablet_mm",
+};
+
+static bool key_read(struct reader *r, enum key key)
+{
+	struct board *board = r->board;
+	switch (key) {
+	case KEY_DISPLAY:
+		return value_size_mm(r, &board->display_width_mm, &board->display_height_mm);
+	case KEY_ROTATION:
+		return value_rotation(r);
+	case KEY_WRAP:
+		return value_line(r, BUTTON_WRAP);
+	case KEY_PIN:
+		return value_line(r, BUTTON_PIN);
+	case KEY_RELAX:
+		return value_line(r, BUTTON_RELAX);
+	case KEY_ACTIVE_LOW:
+		return value_yes(r, &board->button_active_low);
+	case KEY_BUDGET:
+		return value_budget(r);
+	case KEY_IDLE:
+		return value_int(r, 0, 86400, &board->idle_s);
+	case KEY_LANGUAGE:
+		return value_language(r);
+	case KEY_TABLET:
+		return value_tablet(r);
+	case KEY_TABLET_MM:
+		return value_size_mm(r, &board->tablet_width_mm, &board->tablet_height_mm);
+	case KEY_COUNT:
+		break;
+	}
+	return false;
+}
+
+static bool blank(char c)
+{
+	return c == ' ' || c == '\t' || c == '\r';
+}
+
+/* The text from `at` to `end` without blanks around it; false when it does not fit or holds control
+ * characters. */
+static bool word_copy(char *word, size_t capacity, const char *at, const char *end)
+{
+	while (at < end && blank(*at))
+		at++;
+	while (end > at && blank(end[-1]))
+		end--;
+	size_t size = (size_t)(end - at);
+	if (size >= capacity)
+		return false;
+	memcpy(word, at, size);
+	word[size] = 0;
+	for (size_t i = 0; i < size; i++)
+		if ((unsigned char)word[i] < 0x20 || word[i] == 0x7f)
+			return false;
+	return true;
+}
+
+static bool line_read(struct reader *r, const char *at, const char *end)
+{
+	const char *comment = memchr(at, '#', (size_t)(end - at));
+	end = comment ? comment : end;
+	while (at < end && blank(*at))
+		at++;
+	if (at == end)
+		return true;
+	const char *equals = memchr(at, '=', (size_t)(end - at));
+	if (!equals || !word_copy(r->key, sizeof r->key, at, equals) ||
+	    !word_copy(r->value, sizeof r->value, equals + 1, end) || !r->value[0]) {
+		snprintf(r->fault, 200, "line %d: a line reads like key = value", r->line);
+		return false;
+	}
+	for (int i = 0; i < KEY_COUNT; i++) {
+		if (strcmp(r->key, key_names[i]))
+			continue;
+		if (r->seen >> i & 1)
+			return fault(r, "this key stands above already; leave one of them");
+		r->seen |= 1u << i;
+		return key_read(r, (enum key)i);
+	}
+	return fault(r, "unknown key; `kitsuke help board` lists them");
+}
+
+/* Two buttons on one line are a mistake in wiring or in writing. */
+static bool lines_differ(struct reader *r)
+{
+	for (int i = 0; i < BUTTON_COUNT; i++)
+		for (int k = 0; k < i; k++)
+			if (r->board->button_line[i][0] &&
+			    !strcmp(r->board->button_line[i], r->board->button_line[k])) {
+				snprintf(r->fault, 200,
+					 "line %d: %s and %s have the same GPIO line; give each "
+					 "its own",
+					 r->line, key_names[KEY_WRAP + k], key_names[KEY_WRAP + i]);
+				return false;
+			}
+	return true;
+}
+
+bool board_read(struct board *board, const char *text, size_t size, char fault_text[200])
+{
+	struct reader r = {.board = board, .fault = fault_text};
+	*board = board_default;
+	fault_text[0] = 0;
+	bool sound = size <= BOARD_TEXT_MAX;
+	if (!sound)
+		snprintf(fault_text, 200, "line 1: a board file has at most 64 KiB; is this one?");
+	const char *at = text, *end = text + size;
+	while (sound && at < end) {
+		const char *newline = memchr(at, '\n', (size_t)(end - at));
+		const char *stop = newline ? newline : end;
+		r.line++;
+		sound = line_read(&r, at, stop);
+		at = newline ? newline + 1 : end;
+	}
+	sound = sound && lines_differ(&r);
+	if (!sound)
+		*board = board_default;
+	return sound;
+}

@@ -1,0 +1,35 @@
+/* The board file: what is true of one station and not of the program. Text, a line each:
+ *
+ *   # comment
+ *   key = value
+ *
+ * `board_text` is a whole board file with every key, its meaning and its default value. */
+#ifndef BOARD_H
+#define BOARD_H
+
+#include "input.h"
+
+enum { BOARD_NAME_MAX = 64, BOARD_TEXT_MAX = 64 << 10 };
+
+enum board_language { BOARD_ENGLISH, BOARD_JAPANESE };
+
+struct board {
+	float display_width_mm, display_height_mm;      /* 0: what the display itself says */
+	int rotation;                                   /* degrees clockwise: 0, 90, 180, 270 */
+	char button_line[BUTTON_COUNT][BOARD_NAME_MAX]; /* GPIO line names; "" for none */
+	bool button_active_low; /* pressed pulls the line to ground; a pull-up is asked for */
+	long budget_units;      /* solver's work a frame; 0: what the program takes as its own */
+	int idle_s;             /* without a touch for so long, the station starts anew; 0: never */
+	enum board_language language;
+	int tablet_vendor, tablet_product;       /* take this tablet only; 0, 0: any */
+	float tablet_width_mm, tablet_height_mm; /* 0: what the tablet itself says */
+};
+
+extern const struct board board_default;
+extern const char board_text[];
+
+/* Reads a board file; keys that it does not name keep their defaults. On a fault returns false with
+ * "line N: what; remedy" in fault, and board holds the defaults. Any bytes are safe. */
+bool board_read(struct board *board, const char *text, size_t size, char fault[200]);
+
+#endif

@@ -1,0 +1,101 @@
+/* Board files: the documented text gives the defaults, every key is read, faults name their line.
+ */
+#include "board.h"
+#include "test.h"
+
+static bool read_text(struct board *board, const char *text, char fault[200])
+{
+	return board_read(board, text, strlen(text), fault);
+}
+
+static bool same(const struct board *a, const struct board *b)
+{
+	bool lines = true;
+	for (int i = 0; i < BUTTON_COUNT; i++)
+		lines &= !strcmp(a->button_line[i], b->button_line[i]);
+	return lines && a->display_width_mm == b->display_width_mm &&
+	       a->display_height_mm == b->display_height_mm && a->rotation == b->rotation &&
+	       a->button_active_low == b->button_active_low && a->budget_units == b->budget_units &&
+	       a->idle_s == b->idle_s && a->language == b->language &&
+	       a->tablet_vendor == b->tablet_vendor && a->tablet_product == b->tablet_product &&
+	       a->tablet_width_mm == b->tablet_width_mm &&
+	       a->tablet_height_mm == b->tablet_height_mm;
+}
+
+static void check_defaults(void)
+{
+	struct board board;
+	char fault[200];
+	CHECK(read_text(&board, board_text, fault) && same(&board, &board_default));
+	CHECK(read_text(&board, "", fault) && same(&board, &board_default));
+}
+
+static void check_keys(void)
+{
+	struct board board;
+	char fault[200];
+	CHECK(read_text(
+		&board,
+		"display_mm = 344.2 194\r\n\trotation=270 # turned\nwrap = GPIO17\npin=none\n"
+		"relax = GPIO 27\nactive_low = no\nbudget = 250000\nidle_s = 0\n"
+		"language = ja\ntablet = 256C:006d\ntablet_mm = 254 158.75",
+		fault));
+	CHECK_NEAR(board.display_width_mm, 344.2, 1e-3);
+	CHECK_NEAR(board.display_height_mm, 194.0, 0.0);
+	CHECK(board.rotation == 270 && !board.button_active_low && board.budget_units == 250000);
+	CHECK(!strcmp(board.button_line[BUTTON_WRAP], "GPIO17"));
+	CHECK(!strcmp(board.button_line[BUTTON_PIN], ""));
+	CHECK(!strcmp(board.button_line[BUTTON_RELAX], "GPIO 27"));
+	CHECK(board.idle_s == 0 && board.language == BOARD_JAPANESE);
+	CHECK(board.tablet_vendor == 0x256c && board.tablet_product == 0x6d);
+	CHECK_NEAR(board.tablet_height_mm, 158.75, 1e-3);
+}
+
+static void check_faults(void)
+{
+	static const struct {
+		const char *text, *fault;
+	} cases[] = {
+		{"rotation = 45", "line 1: rotation = 45; give 0, 90"},
+		{"\n# a\nrotate = 90", "line 3: rotate = 90; unknown key"},
+		{"rotation", "line 1: a line reads like"},
+		{"= 90", "line 1:  = 90; unknown key"},
+		{"rotation =", "line 1: a line reads like"},
+		{"rotation = 0\nrotation = 90", "line 2: rotation = 90; this key stands above"},
+		{"display_mm = 344", "line 1: display_mm = 344; give width"},
+		{"display_mm = 344 194 3", "line 1: display_mm"},
+		{"display_mm = -344 194", "line 1: display_mm"},
+		{"display_mm = 9 9", "line 1: display_mm"},
+		{"display_mm = nan nan", "line 1: display_mm"},
+		{"idle_s = 1.5", "line 1: idle_s = 1.5; give a whole number from 0 to 86400"},
+		{"idle_s = 99999999999", "line 1: idle_s"},
+		{"budget = lots", "line 1: budget"},
+		{"active_low = maybe", "line 1: active_low = maybe; give yes or no"},
+		{"language = de", "line 1: language = de; give en or ja"},
+		{"tablet = 256c", "line 1: tablet = 256c; give vendor"},
+		{"tablet = 256c:006dx", "line 1: tablet"},
+		{"pin = wrap", "line 1: wrap and pin have the same GPIO line"},
+		{"pin = a\001b", "line 1: a line reads like"},
+		{"pin = 1234567890123456789012345678901234567890123456789012345678901234567890",
+		 "line 1: pin"},
+	};
+	for (int i = 0; i < COUNT_OF(cases); i++) {
+		struct board board;
+		char fault[200];
+		bool sound = read_text(&board, cases[i].text, fault);
+		if (sound || strncmp(fault, cases[i].fault, strlen(cases[i].fault))) {
+			fprintf(stderr, "case %d: %s, expected \"%s\"\n", i,
+				sound ? "was read" : fault, cases[i].fault);
+			test_failures++;
+		}
+		CHECK(same(&board, &board_default));
+	}
+}
+
+int main(void)
+{
+	check_defaults();
+	check_keys();
+	check_faults();
+	return test_end();
+}
