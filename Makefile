@@ -45,8 +45,7 @@ objects = $(patsubst %.c,$(B)/%.o,$(1))
 
 # The pure part: what turns a tape into a state hash. It needs a C library and no package at all.
 CORE := $(call sources,src)
-PURE := $(CORE) $(wildcard drivers/tape*.c) \
-        $(wildcard drivers/pen_descriptor*.c drivers/pen_report*.c drivers/pen_state*.c) \
+PURE := $(CORE) $(wildcard drivers/tape*.c drivers/pen*.c) \
         $(filter-out ui/draw%,$(call sources,ui)) \
         $(wildcard firmware-host/kiosk*.c firmware-host/must.c)
 

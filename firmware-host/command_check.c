@@ -1,6 +1,7 @@
 /* kitsuke check FILE...: are these files sound? A line for each, and one for each fault. */
 #include "commands.h"
 
+#include "board.h"
 #include "character.h"
 #include "format_obj.h"
 #include "journal_file.h"
@@ -113,6 +114,24 @@ static bool check_journal(struct inspector *inspector, const char *path)
 	return faults == 0;
 }
 
+static bool check_board(struct inspector *inspector, const char *path)
+{
+	struct board board;
+	size_t size;
+	char wrong[200], line[FAULT_BYTES];
+	char *text = store_read(path, &size, inspector->fault);
+	if (!text)
+		return fail(inspector);
+	bool read = board_read(&board, text, size, wrong);
+	free(text);
+	snprintf(read ? line : inspector->fault, FAULT_BYTES, "%.250s: %s", path,
+		 read ? "a board, sound" : wrong);
+	if (!read)
+		return fail(inspector);
+	say(line);
+	return true;
+}
+
 static void say_device(const char *path, const struct tape *tape, int device, struct pen *pen)
 {
 	static const char *const kind[] = {"unknown", "a pen", "buttons"};
@@ -184,11 +203,13 @@ static bool check_file(struct inspector *inspector, const char *path)
 	if (line_begins(head, "# kitsuke-tape") || line_begins(head, "D:") ||
 	    line_begins(head, "R:") || line_begins(head, "E:") || ends_with(path, ".hid"))
 		return check_tape(inspector, path);
+	if (ends_with(path, ".board"))
+		return check_board(inspector, path);
 	if (line_begins(head, "v ") || ends_with(path, ".obj"))
 		return check_body(inspector, path);
 	snprintf(inspector->fault, FAULT_BYTES,
-		 "%.250s: what kind of file is this? Known are journals (.kitsuke), tapes (.hid) "
-		 "and bodies (.obj)",
+		 "%.250s: what kind of file is this? Known are journals (.kitsuke), tapes (.hid), "
+		 "boards (.board) and bodies (.obj)",
 		 path);
 	return fail(inspector);
 }

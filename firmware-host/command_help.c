@@ -1,6 +1,7 @@
 /* kitsuke help [TOPIC]: what the program itself knows better than any page about it. */
 #include "commands.h"
 
+#include "board.h"
 #include "kiosk.h"
 #include "measure.h"
 
@@ -18,11 +19,11 @@ static void help_commands(void)
 	     "  kitsuke dress JOURNAL [--obj FILE] [--glb FILE] [--picture FILE] [--report FILE]\n"
 	     "                 [--body FILE] [--body-obj FILE] [--progress]\n"
 	     "                                runs a document without input devices\n"
-	     "  kitsuke check FILE...         are these bodies, journals and tapes sound?\n"
+	     "  kitsuke check FILE...         are bodies, journals, tapes, boards sound?\n"
 	     "  kitsuke record --out TAPE     records attached tablets and buttons\n"
 	     "  kitsuke devices [--descriptor FILE]\n"
 	     "                                what is attached, and what a descriptor yields\n"
-	     "  kitsuke help [journal|tape|limits]\n"
+	     "  kitsuke help [journal|tape|board|limits]\n"
 	     "\n"
 	     "Exit status: 0 done, 1 the input is at fault, 2 usage, 3 the machine is at fault.");
 }
@@ -197,10 +198,12 @@ int command_help(int argc, char **argv)
 		help_journal();
 	else if (argc <= 2 && strcmp(topic, "tape") == 0)
 		help_tape();
+	else if (argc <= 2 && strcmp(topic, "board") == 0)
+		fputs(board_text, stdout);
 	else if (argc <= 2 && strcmp(topic, "limits") == 0)
 		return help_limits();
 	else {
-		fputs("usage: kitsuke help [commands|journal|tape|limits]\n", stderr);
+		fputs("usage: kitsuke help [commands|journal|tape|board|limits]\n", stderr);
 		return STATUS_USAGE;
 	}
 	return STATUS_DONE;
