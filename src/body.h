@@ -48,7 +48,7 @@ struct body {
 	struct bone bone[BODY_BONES_MAX];
 	struct v3 low_m, high_m;
 	uint64_t hash; /* of positions and triangles: names the body in a journal */
-	void *scratch; /* owned by body_*.c */
+	struct body_scratch *scratch; /* owned by body_*.c */
 };
 
 struct body_hit {

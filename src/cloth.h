@@ -31,6 +31,7 @@ struct reach {
 
 struct cloth_settings {
 	float shape;       /* 0..1: share of a triangle's way back to its rest shape */
+	int shape_passes;  /* over all triangles in one sweep */
 	float flatness;    /* 0..1 */
 	float reach;       /* 0..1: long-range limits */
 	float momentum;    /* 0..1: share of the last step carried on */
@@ -64,7 +65,7 @@ struct cloth {
 	struct reach *reach;
 	int sweep; /* counted for the time-sliced refresh */
 	struct cloth_settings settings;
-	void *scratch; /* owned by cloth_*.c */
+	struct cloth_scratch *scratch; /* owned by cloth_*.c */
 };
 
 void cloth_init(struct cloth *cloth, struct arena *arena);

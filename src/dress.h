@@ -38,7 +38,7 @@ struct wrap {
 	struct diagnoses diagnoses;
 	struct cloth *cloth;
 	const struct marks *marks;
-	void *scratch; /* owned by dress_wrap.c */
+	struct wrap_scratch *scratch; /* owned by dress_wrap.c */
 };
 
 void wrap_init(struct wrap *wrap, struct arena *arena);

@@ -1,0 +1,234 @@
+/* The constraints of a cloth: rest shapes, flatness stencils, long-range limits, neighbours. */
+#include "cloth_private.h"
+
+static const float reach_least_m = 0.04f, reach_most_m = 0.22f;
+enum { REACH_TRIES = 4 * REACHES_PER_VERTEX };
+
+static void build_rest(struct cloth *cloth)
+{
+	const struct garment *garment = cloth->garment;
+	struct cloth_scratch *s = cloth->scratch;
+	for (int t = 0; t < garment->triangle_count; t++) {
+		const int *v = garment->triangle[t].v;
+		struct v2 a = garment->rest_m[v[0]];
+		struct v2 u1 = v2_sub(garment->rest_m[v[1]], a),
+			  u2 = v2_sub(garment->rest_m[v[2]], a);
+		float det = v2_cross(u1, u2);
+		det = det > 1e-10f ? det : 1e-10f;
+		s->rest[t] = (struct rest){
+			{u2.y / det, -u2.x / det, -u1.y / det, u1.x / det}, u1, u2};
+	}
+}
+
+static void scatter_order(struct cloth *cloth)
+{
+	struct scatter scatter = {20021027u};
+	int *order = cloth->scratch->order, count = cloth->garment->triangle_count;
+	for (int i = 0; i < count; i++)
+		order[i] = i;
+	for (int i = count - 1; i > 0; i--) {
+		int j = scatter_below(&scatter, i + 1), swap = order[i];
+		order[i] = order[j];
+		order[j] = swap;
+	}
+}
+
+static void take_particles(struct cloth *cloth)
+{
+	const struct garment *garment = cloth->garment;
+	for (int v = 0; v < garment->vertex_count; v++)
+		cloth->particle[v] = cloth->welded ? garment->weld[v] : v;
+	for (int t = 0; t < garment->triangle_count; t++)
+		for (int k = 0; k < 3; k++)
+			cloth->triangle[t].v[k] = cloth->particle[garment->triangle[t].v[k]];
+}
+
+/* Every triangle's edge under the lower of its particles. */
+static void list_edges(struct cloth *cloth)
+{
+	struct cloth_scratch *s = cloth->scratch;
+	int vertices = cloth->garment->vertex_count, triangles = cloth->garment->triangle_count;
+	memset(s->edge_first, 0, (size_t)(vertices + 2) * sizeof *s->edge_first);
+	for (int pass = 0; pass < 2; pass++) {
+		for (int t = 0; t < triangles; t++)
+			for (int k = 0; k < 3; k++) {
+				int a = cloth->triangle[t].v[k],
+				    b = cloth->triangle[t].v[(k + 1) % 3];
+				int low = int_min(a, b);
+				if (pass == 0)
+					s->edge_first[low + 2]++;
+				else
+					s->edge_triangle[s->edge_first[low + 1]++] = 3 * t + k;
+			}
+		for (int v = 0; pass == 0 && v < vertices; v++)
+			s->edge_first[v + 2] += s->edge_first[v + 1];
+	}
+}
+
+static float cotangent(struct v2 at, struct v2 p, struct v2 q)
+{
+	struct v2 u = v2_sub(p, at), w = v2_sub(q, at);
+	float area = float_max(float_abs(v2_cross(u, w)), 1e-10f);
+	return float_clamp(v2_dot(u, w) / area, -10.0f, 10.0f);
+}
+
+/* Isometric bending (Bergou et al. 2006): weights from the cotangents of both flat triangles. Edge
+ * k of triangle t is a -> b with c opposite; of triangle u it is b -> a with d opposite. */
+static void add_flat(struct cloth *cloth, int at, int across)
+{
+	const struct garment *garment = cloth->garment;
+	int t = at / 3, k = at % 3, u = across / 3, j = across % 3;
+	const int *p = garment->triangle[t].v, *q = garment->triangle[u].v;
+	const struct v2 *rest = garment->rest_m;
+	int a = p[k], b = p[(k + 1) % 3], c = p[(k + 2) % 3];
+	int a2 = q[(j + 1) % 3], b2 = q[j], d = q[(j + 2) % 3];
+	bool crossed = cloth->particle[b2] != cloth->particle[b]; /* a seam of inconsistent sides */
+	if (crossed) {
+		int swap = a2;
+		a2 = b2;
+		b2 = swap;
+	}
+	float ac = cotangent(rest[a], rest[b], rest[c]),
+	      ad = cotangent(rest[a2], rest[b2], rest[d]);
+	float bc = cotangent(rest[b], rest[a], rest[c]),
+	      bd = cotangent(rest[b2], rest[a2], rest[d]);
+	struct flat *flat = &cloth->flat[cloth->flat_count++];
+	int corner[4] = {a, b, c, d};
+	float weight[4] = {bc + bd, ac + ad, -ac - bc, -ad - bd};
+	flat->k_norm = 1e-6f;
+	for (int i = 0; i < 4; i++) {
+		flat->v[i] = cloth->particle[corner[i]];
+		flat->k[i] = weight[i];
+		flat->k_norm += weight[i] * weight[i];
+	}
+}
+
+static void pair_edges(struct cloth *cloth)
+{
+	struct cloth_scratch *s = cloth->scratch;
+	const struct triangle *triangle = cloth->triangle;
+	cloth->flat_count = 0;
+	for (int v = 0; v < cloth->garment->vertex_count; v++)
+		for (int i = s->edge_first[v]; i < s->edge_first[v + 1]; i++)
+			for (int j = i + 1; j < s->edge_first[v + 1]; j++) {
+				int e = s->edge_triangle[i], f = s->edge_triangle[j];
+				int e_high = int_max(triangle[e / 3].v[e % 3],
+						     triangle[e / 3].v[(e % 3 + 1) % 3]);
+				int f_high = int_max(triangle[f / 3].v[f % 3],
+						     triangle[f / 3].v[(f % 3 + 1) % 3]);
+				if (e_high == f_high && cloth->flat_count < GARMENT_EDGES_MAX)
+					add_flat(cloth, e, f);
+			}
+}
+
+static void build_rings(struct cloth *cloth)
+{
+	struct cloth_scratch *s = cloth->scratch;
+	int vertices = cloth->garment->vertex_count, triangles = cloth->garment->triangle_count;
+	memset(s->ring_first, 0, (size_t)(vertices + 2) * sizeof *s->ring_first);
+	for (int pass = 0; pass < 2; pass++) {
+		for (int t = 0; t < triangles; t++)
+			for (int k = 0; k < 6; k++) {
+				const int *v = cloth->triangle[t].v;
+				int a = v[k % 3], b = v[(k % 3 + 1 + k / 3) % 3];
+				if (pass == 0)
+					s->ring_first[a + 2]++;
+				else
+					s->ring[s->ring_first[a + 1]++] = b;
+			}
+		for (int v = 0; pass == 0 && v < vertices; v++)
+			s->ring_first[v + 2] += s->ring_first[v + 1];
+	}
+}
+
+void cloth_build(struct cloth *cloth)
+{
+	build_rest(cloth);
+	scatter_order(cloth);
+	take_particles(cloth);
+	list_edges(cloth);
+	pair_edges(cloth);
+	build_rings(cloth);
+}
+
+/* ---- long-range limits ---- */
+
+static bool segments_cross(struct v2 a, struct v2 b, struct v2 c, struct v2 d)
+{
+	struct v2 ab = v2_sub(b, a), cd = v2_sub(d, c);
+	float s1 = v2_cross(ab, v2_sub(c, a)), s2 = v2_cross(ab, v2_sub(d, a));
+	float s3 = v2_cross(cd, v2_sub(a, c)), s4 = v2_cross(cd, v2_sub(b, c));
+	return ((s1 < 0.0f) != (s2 < 0.0f)) && ((s3 < 0.0f) != (s4 < 0.0f));
+}
+
+/* Edges of the flat pieces that have one triangle only, piece by piece. Uses the lists that pair
+ * edges, so it runs while nothing is welded. */
+static void list_rims(struct cloth *cloth)
+{
+	struct cloth_scratch *s = cloth->scratch;
+	const struct triangle *triangle = cloth->triangle;
+	int count = 0;
+	for (int p = 0; p < PIECES_MAX; p++) {
+		s->rim_first[p] = count;
+		for (int v = cloth->garment->piece_first[p]; v < cloth->garment->piece_first[p + 1];
+		     v++)
+			for (int i = s->edge_first[v]; i < s->edge_first[v + 1]; i++) {
+				int e = s->edge_triangle[i], same = 0;
+				int high = int_max(triangle[e / 3].v[e % 3],
+						   triangle[e / 3].v[(e % 3 + 1) % 3]);
+				for (int j = s->edge_first[v]; j < s->edge_first[v + 1]; j++) {
+					int f = s->edge_triangle[j];
+					same += high == int_max(triangle[f / 3].v[f % 3],
+								triangle[f / 3].v[(f % 3 + 1) % 3]);
+				}
+				if (same == 1)
+					s->rim[count++] = e;
+			}
+	}
+	s->rim_first[PIECES_MAX] = count;
+}
+
+static bool leaves_piece(const struct cloth *cloth, int piece, struct v2 a, struct v2 b)
+{
+	const struct cloth_scratch *s = cloth->scratch;
+	for (int i = s->rim_first[piece]; i < s->rim_first[piece + 1]; i++) {
+		const int *v = cloth->garment->triangle[s->rim[i] / 3].v;
+		int k = s->rim[i] % 3;
+		if (segments_cross(a, b, cloth->garment->rest_m[v[k]],
+				   cloth->garment->rest_m[v[(k + 1) % 3]]))
+			return true;
+	}
+	return false;
+}
+
+/* Pairs that may not be farther apart in space than on the flat piece: a coarse level that carries
+ * tension farther in one sweep than triangles can. */
+void cloth_build_reach(struct cloth *cloth)
+{
+	const struct garment *garment = cloth->garment;
+	struct scatter scatter = {19700101u};
+	cloth->reach_count = 0;
+	list_rims(cloth);
+	for (int v = 0; v < garment->vertex_count; v++) {
+		int piece = garment->piece[v], first = garment->piece_first[piece];
+		int size = garment->piece_first[piece + 1] - first;
+		struct v2 a = garment->rest_m[v];
+		for (int found = 0, tries = 0; tries < REACH_TRIES && found < REACHES_PER_VERTEX;
+		     tries++) {
+			int w = first + scatter_below(&scatter, size);
+			struct v2 b = garment->rest_m[w];
+			float length = v2_distance(a, b);
+			if (length < reach_least_m || length > reach_most_m ||
+			    leaves_piece(cloth, piece, a, b))
+				continue;
+			cloth->reach[cloth->reach_count++] = (struct reach){v, w, length};
+			found++;
+		}
+	}
+	for (int i = cloth->reach_count - 1; i > 0; i--) {
+		int j = scatter_below(&scatter, i + 1);
+		struct reach swap = cloth->reach[i];
+		cloth->reach[i] = cloth->reach[j];
+		cloth->reach[j] = swap;
+	}
+}

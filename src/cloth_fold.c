@@ -1,0 +1,126 @@
+/* Folds turned back, edges pushed out: the help that physics would not give (S18). */
+#include "cloth_private.h"
+
+enum { SMOOTH_ROUNDS = 20, EDGE_SAMPLES = 8 };
+
+static const float fold_reach_m = 0.06f; /* a fold matters this near to the body */
+
+static struct v3 face_normal(const struct cloth *cloth, int t)
+{
+	const int *v = cloth->triangle[t].v;
+	const struct v3 *x = cloth->position_m;
+	return v3_normalize(v3_cross(v3_sub(x[v[1]], x[v[0]]), v3_sub(x[v[2]], x[v[0]])));
+}
+
+/* Does the triangle's outside look at the body that it lies near? */
+static bool faces_body(const struct cloth *cloth, int t)
+{
+	const int *v = cloth->triangle[t].v;
+	struct v3 centre = {0.0f, 0.0f, 0.0f};
+	for (int k = 0; k < 3; k++)
+		centre = v3_mad(centre, cloth->position_m[v[k]], 1.0f / 3.0f);
+	struct body_hit hit;
+	body_walk(cloth->body, centre, cloth->contact[v[0]].triangle, 16, &hit);
+	if (hit.distance_m > fold_reach_m)
+		return false;
+	return v3_dot(face_normal(cloth, t), hit.normal) < -0.2f;
+}
+
+static void flag_ring(struct cloth *cloth)
+{
+	struct cloth_scratch *s = cloth->scratch;
+	for (int v = 0; v < cloth->garment->vertex_count; v++)
+		for (int i = s->ring_first[v]; s->flipped[v] == 1 && i < s->ring_first[v + 1]; i++)
+			if (!s->flipped[s->ring[i]])
+				s->flipped[s->ring[i]] = 2;
+}
+
+/* Laplacian steps on the flagged particles; those at a rim slide along the rim only, because the
+ * mean of a rim particle's whole ring would shrink the hem. An inner particle's neighbours come
+ * twice in its ring, a rim neighbour once. */
+static void smooth(struct cloth *cloth)
+{
+	struct cloth_scratch *s = cloth->scratch;
+	for (int v = 0; v < cloth->garment->vertex_count; v++) {
+		int first = s->ring_first[v], end = s->ring_first[v + 1];
+		if (!s->flipped[v] || !is_particle(cloth, v) || first == end)
+			continue;
+		struct v3 all = {0.0f, 0.0f, 0.0f}, rim = {0.0f, 0.0f, 0.0f};
+		int rims = 0;
+		for (int i = first; i < end; i++) {
+			int times = 0;
+			for (int j = first; j < end; j++)
+				times += s->ring[j] == s->ring[i];
+			all = v3_add(all, cloth->position_m[s->ring[i]]);
+			if (times == 1) {
+				rim = v3_add(rim, cloth->position_m[s->ring[i]]);
+				rims++;
+			}
+		}
+		struct v3 to = rims > 0 ? v3_scale(rim, 1.0f / (float)rims)
+					: v3_scale(all, 1.0f / (float)(end - first));
+		cloth->position_m[v] = to;
+		cloth->previous_m[v] = to;
+	}
+}
+
+int cloth_unfold(struct cloth *cloth)
+{
+	struct cloth_scratch *s = cloth->scratch;
+	int found = 0;
+	memset(s->flipped, 0, (size_t)cloth->garment->vertex_count);
+	for (int t = 0; t < cloth->garment->triangle_count; t++) {
+		if (!triangle_placed(cloth, t) ||
+		    cloth->contact[cloth->triangle[t].v[0]].triangle < 0 || !faces_body(cloth, t))
+			continue;
+		found++;
+		for (int k = 0; k < 3; k++)
+			s->flipped[cloth->triangle[t].v[k]] = 1;
+	}
+	if (found == 0)
+		return 0;
+	flag_ring(cloth);
+	for (int round = 0; round < SMOOTH_ROUNDS; round++)
+		smooth(cloth);
+	cloth_finish(cloth);
+	return found;
+}
+
+/* ---- edges ---- */
+
+/* Both ends of an edge that passes through the body go out by what its deepest sample lacks. */
+static bool push_edge(struct cloth *cloth, int a, int b)
+{
+	struct v3 *x = cloth->position_m;
+	struct body_hit hit, deepest = {.distance_m = 1.0f};
+	if (!body_segment_hits(cloth->body, x[a], x[b], &hit))
+		return false;
+	for (int i = 0; i <= EDGE_SAMPLES; i++) {
+		struct v3 p = v3_lerp(x[a], x[b], (float)i / (float)EDGE_SAMPLES);
+		body_nearest(cloth->body, p, 0, &hit);
+		if (hit.distance_m < deepest.distance_m)
+			deepest = hit;
+	}
+	float lack = 0.75f * cloth->settings.offset_m - deepest.distance_m;
+	float out = float_clamp(lack, 0.001f, 0.006f);
+	x[a] = v3_mad(x[a], deepest.normal, out);
+	x[b] = v3_mad(x[b], deepest.normal, out);
+	cloth->previous_m[a] = x[a];
+	cloth->previous_m[b] = x[b];
+	return true;
+}
+
+int cloth_push_out(struct cloth *cloth)
+{
+	int found = 0;
+	float close_m = 2.0f * cloth->garment->edge_m;
+	for (int t = 0; t < cloth->garment->triangle_count; t++)
+		for (int k = 0; triangle_placed(cloth, t) && k < 3; k++) {
+			int a = cloth->triangle[t].v[k], b = cloth->triangle[t].v[(k + 1) % 3];
+			if (cloth->contact[a].distance_m < close_m)
+				found += push_edge(cloth, a, b);
+		}
+	if (found > 0)
+		cloth_finish(cloth);
+	return found;
+}

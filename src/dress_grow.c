@@ -1,0 +1,116 @@
+/* Growth: cloth continues the cloth that already lies there, ring by ring (S13; the paper's figure
+ * 8, left). A vertex is placed where each placed triangle across an edge, unfolded flat, would have
+ * it; several predictions are averaged. */
+#include "dress_private.h"
+
+/* The flat pieces' edges, each under its lower vertex. Vertices are not welded while cloth grows.
+ */
+void wrap_grow_init(struct wrap *wrap)
+{
+	struct wrap_scratch *s = wrap->scratch;
+	const struct garment *garment = wrap->cloth->garment;
+	memset(s->edge_first, 0, (size_t)(garment->vertex_count + 2) * sizeof *s->edge_first);
+	for (int pass = 0; pass < 2; pass++) {
+		for (int t = 0; t < garment->triangle_count; t++)
+			for (int k = 0; k < 3; k++) {
+				const int *v = garment->triangle[t].v;
+				int low = int_min(v[k], v[(k + 1) % 3]);
+				if (pass == 0)
+					s->edge_first[low + 2]++;
+				else
+					s->edge_triangle[s->edge_first[low + 1]++] = 3 * t + k;
+			}
+		for (int v = 0; pass == 0 && v < garment->vertex_count; v++)
+			s->edge_first[v + 2] += s->edge_first[v + 1];
+	}
+}
+
+/* A piece without a mark is entered over its seams: a vertex takes the place of its sewn twin. */
+static int enter_pieces(struct wrap *wrap)
+{
+	struct cloth *cloth = wrap->cloth;
+	const struct garment *garment = cloth->garment;
+	int placed = 0;
+	for (int i = 0; i < 2 * garment->pair_count; i++) {
+		const struct seam_pair *pair = &garment->pair[i / 2];
+		int from = i & 1 ? pair->b : pair->a, to = i & 1 ? pair->a : pair->b;
+		if (cloth->placed[from] != 1 || cloth->placed[to] ||
+		    wrap->scratch->seeded[garment->piece[to]])
+			continue;
+		cloth->position_m[to] = cloth->previous_m[to] = cloth->position_m[from];
+		cloth->contact[to] = cloth->contact[from];
+		cloth->placed[to] = 2; /* not itself a source in this ring */
+		placed++;
+	}
+	for (int v = 0; v < garment->vertex_count; v++)
+		cloth->placed[v] = cloth->placed[v] != 0;
+	return placed;
+}
+
+/* Where triangle t's corner k would lie if it went on flat from the placed triangle `across` the
+ * opposite edge a -> b. */
+static struct v3 unfolded(const struct cloth *cloth, int t, int k, int across)
+{
+	const struct garment *garment = cloth->garment;
+	const int *v = garment->triangle[t].v, *w = garment->triangle[across].v;
+	const struct v3 *x = cloth->position_m;
+	int d = v[k], a = v[(k + 1) % 3], b = v[(k + 2) % 3];
+	struct v3 normal = v3_normalize(
+		v3_cross(v3_sub(x[w[1]], x[w[0]]), v3_sub(x[w[2]], x[w[0]])));
+	struct v3 edge = v3_normalize(v3_sub(x[b], x[a]));
+	struct v2 flat = v2_sub(garment->rest_m[b], garment->rest_m[a]);
+	float length = v2_length(flat);
+	struct v2 u = v2_scale(flat, 1.0f / float_max(length, 1e-6f));
+	struct v2 to = v2_sub(garment->rest_m[d], garment->rest_m[a]);
+	struct v3 middle = v3_lerp(x[a], x[b], 0.5f);
+	struct v3 left = v3_normalize(v3_cross(normal, edge));
+	return v3_mad(v3_mad(middle, edge, v2_dot(to, u) - 0.5f * length), left, v2_cross(u, to));
+}
+
+static void predict_corner(struct wrap *wrap, int t, int k)
+{
+	struct wrap_scratch *s = wrap->scratch;
+	const struct cloth *cloth = wrap->cloth;
+	const struct triangle *triangle = cloth->garment->triangle;
+	int d = triangle[t].v[k], a = triangle[t].v[(k + 1) % 3], b = triangle[t].v[(k + 2) % 3];
+	int low = int_min(a, b), high = int_max(a, b);
+	for (int i = s->edge_first[low]; i < s->edge_first[low + 1]; i++) {
+		int across = s->edge_triangle[i] / 3, j = s->edge_triangle[i] % 3;
+		const int *w = triangle[across].v;
+		if (across == t || int_max(w[j], w[(j + 1) % 3]) != high ||
+		    !triangle_placed(cloth, across))
+			continue;
+		s->sum_m[d] = v3_add(s->sum_m[d], unfolded(cloth, t, k, across));
+		s->count[d]++;
+	}
+}
+
+int wrap_grow_ring(struct wrap *wrap)
+{
+	struct wrap_scratch *s = wrap->scratch;
+	struct cloth *cloth = wrap->cloth;
+	const struct garment *garment = cloth->garment;
+	int placed = enter_pieces(wrap);
+	memset(s->sum_m, 0, (size_t)garment->vertex_count * sizeof *s->sum_m);
+	memset(s->count, 0, (size_t)garment->vertex_count * sizeof *s->count);
+	for (int t = 0; t < garment->triangle_count; t++) {
+		int missing = -1, count = 0;
+		for (int k = 0; k < 3; k++)
+			if (!cloth->placed[garment->triangle[t].v[k]]) {
+				missing = k;
+				count++;
+			}
+		if (count == 1)
+			predict_corner(wrap, t, missing);
+	}
+	for (int v = 0; v < garment->vertex_count; v++) {
+		if (s->count[v] == 0)
+			continue;
+		cloth->position_m[v] = v3_scale(s->sum_m[v], 1.0f / (float)s->count[v]);
+		cloth->previous_m[v] = cloth->position_m[v];
+		cloth->placed[v] = 1;
+		cloth_look(cloth, v);
+		placed++;
+	}
+	return placed;
+}

@@ -1,0 +1,33 @@
+/* Shared between the files of the wrap only. */
+#ifndef DRESS_PRIVATE_H
+#define DRESS_PRIVATE_H
+
+#include "cloth_private.h"
+#include "dress.h"
+
+struct wrap_scratch {
+	uint8_t *seeded;  /* per piece: a mark lies on it */
+	struct v3 *sum_m; /* per vertex: predictions of a ring */
+	int *count;
+	int *edge_first;    /* per vertex + 1: triangles on edges whose lower vertex it is */
+	int *edge_triangle; /* triangle * 3 + corner */
+	float along_m[MARK_POINTS_MAX];
+	int ring_sweeps; /* sweeps left before the next ring */
+	int rounds;      /* folds turned back so far */
+	struct v3 mark_point_m[MARK_POINTS_MAX], mark_normal[MARK_POINTS_MAX];
+};
+
+/* Puts the triangles under the marks on the body (dress_seed.c). Returns the vertices seeded. */
+int wrap_seed(struct wrap *wrap);
+
+/* Distances of the marks' cloth from their places on the body, now. */
+void wrap_mark_error(struct wrap *wrap);
+
+/* Readies growth, then places one ring of vertices; returns how many (dress_grow.c). */
+void wrap_grow_init(struct wrap *wrap);
+int wrap_grow_ring(struct wrap *wrap);
+
+/* Adds a diagnosis; `text` may hold %1 and %2 for the marks' numbers. Full: it is dropped. */
+void wrap_diagnose(struct wrap *wrap, const char *kind, int mark_1, int mark_2, const char *text);
+
+#endif

@@ -1,0 +1,190 @@
+/* The seeds of a wrap: cloth under a mark goes to the mark's partner on the body (S13).
+ *
+ *   cloth, flat                 body
+ *      | s  vertex                 t ^   . p = b(s) + lateral (n x t) + offset n
+ *      |---o                         |--o
+ *      | lateral                     |  n towards the reader
+ *
+ * Points correspond by arc length from the start of both lines, so that cloth is laid, not
+ * stretched.
+ */
+#include "dress_private.h"
+
+enum { SMOOTHINGS = 4 };
+
+static const float seed_width = 0.75f; /* of the mesh's edge length, to each side */
+static const float lengths_differ = 0.3f;
+
+void wrap_diagnose(struct wrap *wrap, const char *kind, int mark_1, int mark_2, const char *text)
+{
+	struct diagnoses *list = &wrap->diagnoses;
+	if (list->count == DIAGNOSES_MAX)
+		return;
+	struct diagnosis *d = &list->item[list->count++];
+	memset(d, 0, sizeof *d);
+	memcpy(d->kind, kind, (size_t)int_min((int)strlen(kind), NAME_BYTES_MAX - 1));
+	d->mark[0] = mark_1;
+	d->mark[1] = mark_2;
+	int size = 0;
+	for (const char *p = text; *p && size < DIAGNOSIS_BYTES_MAX - 3; p++) {
+		int number = p[0] == '%' && p[1] == '1'   ? mark_1
+			     : p[0] == '%' && p[1] == '2' ? mark_2
+							  : -1;
+		if (number < 0) {
+			d->text[size++] = *p;
+			continue;
+		}
+		if (number >= 10)
+			d->text[size++] = (char)('0' + number / 10 % 10);
+		d->text[size++] = (char)('0' + number % 10);
+		p++;
+	}
+}
+
+static const struct body_mark *partner(const struct marks *marks, int number)
+{
+	for (int m = 0; m < MARKS_MAX; m++)
+		if (marks->body[m].used && marks->body[m].number == number)
+			return &marks->body[m];
+	return NULL;
+}
+
+/* The body's line without the hand's tremor: smoothed and laid back onto the surface. */
+static float body_line(struct wrap *wrap, const struct body_mark *mark)
+{
+	struct wrap_scratch *s = wrap->scratch;
+	int count = mark->point_count;
+	memcpy(s->mark_point_m, mark->point_m, (size_t)count * sizeof(struct v3));
+	for (int round = 0; round < SMOOTHINGS; round++) {
+		struct v3 before = s->mark_point_m[0];
+		for (int i = 1; i + 1 < count; i++) {
+			struct v3 here = s->mark_point_m[i];
+			struct v3 mean = v3_lerp(before, s->mark_point_m[i + 1], 0.5f);
+			s->mark_point_m[i] = v3_lerp(here, mean, 0.5f);
+			before = here;
+		}
+	}
+	s->along_m[0] = 0.0f;
+	for (int i = 0; i < count; i++) {
+		struct body_hit hit;
+		body_nearest(wrap->cloth->body, s->mark_point_m[i], 0, &hit);
+		s->mark_point_m[i] = hit.point_m;
+		s->mark_normal[i] = hit.normal;
+		if (i > 0)
+			s->along_m[i] = s->along_m[i - 1] +
+					v3_distance(s->mark_point_m[i - 1], s->mark_point_m[i]);
+	}
+	return s->along_m[count - 1];
+}
+
+/* The place on the body that belongs to arc length and lateral distance on the cloth; beyond the
+ * body's line it goes straight on. */
+static struct v3 place_on_body(const struct wrap *wrap, int count, float along_m, float lateral_m)
+{
+	const struct wrap_scratch *s = wrap->scratch;
+	int i = 0;
+	while (i + 2 < count && s->along_m[i + 1] < along_m)
+		i++;
+	struct v3 a = s->mark_point_m[i], step = v3_sub(s->mark_point_m[i + 1], a);
+	float length = float_max(v3_length(step), 1e-6f);
+	float f = (along_m - s->along_m[i]) / length;
+	struct v3 normal = v3_normalize(
+		v3_lerp(s->mark_normal[i], s->mark_normal[i + 1], float_clamp(f, 0.0f, 1.0f)));
+	struct v3 left = v3_normalize(v3_cross(normal, step));
+	struct v3 place = v3_mad(v3_mad(a, step, f), left, lateral_m);
+	return v3_mad(place, normal, wrap->cloth->settings.offset_m);
+}
+
+static float line_length_m(const struct cloth_mark *mark)
+{
+	float length = 0.0f;
+	for (int i = 1; i < mark->point_count; i++)
+		length += v2_distance(mark->point_mm[i - 1], mark->point_mm[i]) * 0.001f;
+	return length;
+}
+
+/* Nearest point of the cloth's line: arc length and signed distance (left is positive). */
+static float nearest_on_line(const struct cloth_mark *mark, struct v2 p_m, float *along_m,
+			     float *lateral_m)
+{
+	float best = 1e9f, before = 0.0f;
+	*along_m = *lateral_m = 0.0f;
+	for (int i = 0; i + 1 < mark->point_count; i++) {
+		struct v2 a = v2_scale(mark->point_mm[i], 0.001f);
+		struct v2 step = v2_sub(v2_scale(mark->point_mm[i + 1], 0.001f), a);
+		float length = float_max(v2_length(step), 1e-6f);
+		struct v2 u = v2_scale(step, 1.0f / length), w = v2_sub(p_m, a);
+		float t = float_clamp(v2_dot(w, u), 0.0f, length);
+		float distance = v2_distance(w, v2_scale(u, t));
+		if (distance < best) {
+			best = distance;
+			*along_m = before + t;
+			*lateral_m = v2_cross(u, w);
+		}
+		before += length;
+	}
+	return best;
+}
+
+static int seed_mark(struct wrap *wrap, const struct cloth_mark *mark, const struct body_mark *on)
+{
+	struct cloth *cloth = wrap->cloth;
+	const struct garment *garment = cloth->garment;
+	float body_m = body_line(wrap, on), cloth_m = line_length_m(mark);
+	float width = seed_width * garment->edge_m;
+	int seeds = 0;
+	if (float_abs(body_m - cloth_m) > lengths_differ * float_max(body_m, cloth_m))
+		wrap_diagnose(
+			wrap, "lengths-differ", mark->number, 0,
+			"The two lines of mark %1 differ much in length; the cloth is laid from "
+			"where both begin.");
+	for (int v = garment->piece_first[mark->piece]; v < garment->piece_first[mark->piece + 1];
+	     v++) {
+		float along_m, lateral_m;
+		if (nearest_on_line(mark, garment->rest_m[v], &along_m, &lateral_m) > width ||
+		    along_m > body_m + width)
+			continue;
+		cloth->goal_m[v] = place_on_body(wrap, on->point_count, along_m, lateral_m);
+		cloth->position_m[v] = cloth->previous_m[v] = cloth->goal_m[v];
+		cloth->placed[v] = 1;
+		cloth->held[v] = 1;
+		cloth_look(cloth, v);
+		seeds++;
+	}
+	wrap->scratch->seeded[mark->piece] |= seeds > 0;
+	return seeds;
+}
+
+int wrap_seed(struct wrap *wrap)
+{
+	const struct marks *marks = wrap->marks;
+	int seeds = 0;
+	memset(wrap->scratch->seeded, 0, PIECES_MAX);
+	for (int m = 0; m < MARKS_MAX; m++) {
+		const struct cloth_mark *mark = &marks->cloth[m];
+		const struct body_mark *on = mark->used ? partner(marks, mark->number) : NULL;
+		if (on && mark->point_count >= 2 && on->point_count >= 2)
+			seeds += seed_mark(wrap, mark, on);
+		else if (mark->used)
+			wrap_diagnose(wrap, "no-partner", mark->number, 0,
+				      "Mark %1 on the cloth has no partner on the body.");
+	}
+	return seeds;
+}
+
+void wrap_mark_error(struct wrap *wrap)
+{
+	const struct cloth *cloth = wrap->cloth;
+	float sum = 0.0f, most = 0.0f;
+	int count = 0;
+	for (int v = 0; v < cloth->garment->vertex_count; v++) {
+		if (!cloth->held[v])
+			continue;
+		struct v3 d = v3_sub(cloth->position_m[v], cloth->goal_m[v]);
+		sum += v3_dot(d, d);
+		most = float_max(most, v3_length(d));
+		count++;
+	}
+	wrap->mark_error_rms_m = count > 0 ? sqrtf(sum / (float)count) : 0.0f;
+	wrap->mark_error_max_m = most;
+}
