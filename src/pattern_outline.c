@@ -3,6 +3,7 @@
 #include "pattern_private.h"
 
 #define CORNER_COSINE 0.82f /* 35 degrees: a smaller turn is a smooth joint */
+#define LINES_CORNER_COSINE 0.9f /* 26 degrees: the directions of lines are better known */
 #define SMOOTH_EXCESS 1.6e-4f
 #define STRAIGHT_SHARE 0.025f   /* bow of a straight run by its length */
 #define CROSSING_SINE_MIN 0.35f /* flatter lines have no useful crossing */
@@ -121,7 +122,8 @@ static float angle_reach_mm(const struct trace *trace)
 /* A joint is a corner when the line turns there and a single cubic can't follow it. A right angle
  * with arms of w / 2 leaves 6.5e-4 w^3 of a cubic fit; a quarter of that decides. Where tremor
  * hides the difference, the corner is believed. */
-static bool is_corner(const struct run *before, const struct run *after, const struct trace *trace)
+static bool curves_meet_in_corner(const struct run *before, const struct run *after,
+				  const struct trace *trace)
 {
 	int joint = after->first;
 	int reach = int_min(before->last - before->first, after->last - after->first) * 3 / 5 + 2;
@@ -134,11 +136,20 @@ static bool is_corner(const struct run *before, const struct run *after, const s
 	run_fit(&across, trace, base, base + 2 * reach);
 	float width = across.length_mm;
 	float excess = across.cost_mm3 - back.cost_mm3 - on.cost_mm3;
-	if (excess < SMOOTH_EXCESS * width * width * width)
+	float enough = SMOOTH_EXCESS * width * width * width;
+	if (enough > 12.0f * trace->noise_mm2 * spacing && excess < enough)
 		return false;
 	struct v2 in = v2_sub(run_point(&back, 1.0f), run_point(&back, 0.4f));
 	struct v2 out = v2_sub(run_point(&on, 0.6f), run_point(&on, 0.0f));
 	return v2_dot(v2_normalize(in), v2_normalize(out)) < CORNER_COSINE;
+}
+
+static bool is_corner(const struct stretch *before, const struct stretch *after,
+		      const struct trace *trace)
+{
+	if (before->straight && after->straight)
+		return v2_dot(before->along, after->along) < LINES_CORNER_COSINE;
+	return curves_meet_in_corner(&before->run, &after->run, trace);
 }
 
 /* Least-squares handles of a Bezier curve whose ends are the joints. */
@@ -263,9 +274,11 @@ static void make_stretches(struct stretch *stretch, const struct runs *runs,
 		struct stretch *at = &stretch[k];
 		*at = (struct stretch){.run = runs->run[k]};
 		at->straight = is_straight(&at->run, trace);
-		at->corner = is_corner(&runs->run[k > 0 ? k - 1 : count - 1], &at->run, trace);
 		fit_line(at, trace);
 	}
+	for (int k = 0; k < count; k++)
+		stretch[k].corner =
+			is_corner(&stretch[k > 0 ? k - 1 : count - 1], &stretch[k], trace);
 	for (int k = 0; k < count; k++)
 		stretch[k].start = joint_point(&stretch[k > 0 ? k - 1 : count - 1], &stretch[k]);
 	for (int k = 0; k < count; k++)

@@ -13,7 +13,7 @@ enum { NODES_MAX = 200, RUN_NODES_MIN = 3 };
 #define WOBBLE_SHARE (1.0f / 900.0f) /* of the outline's length */
 #define WOBBLE_SPAN (1.0f / 16.0f)
 #define NOISE_PRICE 14.0f
-#define CURVE_PRICE 2.0 /* of a straight run's: twice the coefficients */
+#define CURVE_PRICE 2.5 /* of a straight run: it has twice the coefficients */
 
 /* Running sums of a weighted cubic fit in t = distance / scale from the run's start. */
 struct sums {
