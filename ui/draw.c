@@ -48,7 +48,7 @@ static bool parts_open(struct draw *draw, char fault[200])
 {
 	return quads_make(draw) && order_open(&draw->order) && room_open(draw, fault) &&
 	       body_open(draw, fault) && cloth_open(draw, fault) && shadow_open(draw, fault) &&
-	       ribbons_open(draw, fault) && sprites_open(draw, fault);
+	       ribbons_open(draw, fault) && fringe_open(draw, fault) && sprites_open(draw, fault);
 }
 
 struct draw *draw_open(int width, int height, char fault[200])
@@ -99,6 +99,7 @@ void draw_close(struct draw *draw)
 	body_release(draw);
 	cloth_release(draw);
 	ribbons_release(draw);
+	fringe_release(draw);
 	sprites_release(draw);
 	if (draw->sheet)
 		sheet_close(draw->sheet);
@@ -146,12 +147,14 @@ void background_draw(struct draw *draw, const struct ui *ui, const struct sessio
 	layer_draw(draw, &draw->chrome_plate, draw->chrome_layer, true);
 }
 
-static void figure_draw(struct draw *draw, const struct ui *ui)
+static void figure_draw(struct draw *draw, const struct ui *ui, const struct session *session)
 {
 	pane_enter(draw, &ui->view.pane);
 	room_draw(draw);
 	body_draw(draw);
 	cloth_draw(draw);
+	fringe_body_draw(draw, &session->body);
+	fringe_cloth_draw(draw, session);
 }
 
 static void lines_draw(struct draw *draw, const struct ui *ui, const struct session *session)
@@ -190,10 +193,11 @@ void draw_frame(struct draw *draw, const struct ui *ui, const struct session *se
 	    session->body.vertex_count)
 		body_upload(draw, &session->body);
 	cloth_upload(draw, session);
+	trim_follow(draw, session);
 	camera_make(&draw->camera, &ui->view, &session->body);
 	background_draw(draw, ui, session);
 	shadow_draw(draw);
-	figure_draw(draw, ui);
+	figure_draw(draw, ui, session);
 	lines_draw(draw, ui, session);
 	overlays_draw(draw);
 }

@@ -6,12 +6,6 @@
 
 static const float caster_cell_m = 0.022f;
 
-struct body_vertex {
-	struct v3 position_m;
-	struct v3 normal;
-	uint8_t material[4]; /* openness to the sky */
-};
-
 bool body_open(struct draw *draw, char fault[200])
 {
 	struct draw_body *body = &draw->body;
@@ -25,7 +19,7 @@ bool body_open(struct draw *draw, char fault[200])
 	glGenBuffers(1, &body->caster_indices);
 	body->stale = true;
 	return body->vertex && body->caster_m && body->index && body->open_sky &&
-	       surface_open(&body->program, false, fault);
+	       surface_open(&body->program, false, false, fault);
 }
 
 void body_release(struct draw *draw)
@@ -146,7 +140,7 @@ void body_draw(struct draw *draw)
 	if (!draw->body.index_count)
 		return;
 	body_bind(draw);
-	surface_use(&draw->body.program, draw, 0.007f);
+	surface_use(&draw->body.program, draw, body_bias_m);
 	glEnable(GL_CULL_FACE);
 	glDrawElements(GL_TRIANGLES, draw->body.index_count, GL_UNSIGNED_SHORT, NULL);
 	glDisable(GL_CULL_FACE);

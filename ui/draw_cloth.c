@@ -8,11 +8,6 @@ enum { WEAVE_SIZE = 256, WEAVE_YARNS = 64, GLOW_FRAMES = 30 };
 
 static const float weave_width_m = 0.096f; /* 64 yarns of 1.5 mm */
 
-struct cloth_fixed {
-	float place[2]; /* in widths of the weave */
-	uint8_t outside[4], inside[4];
-};
-
 /* Plain weave: over and under, yarns of uneven thickness and shade (slubs), mean brightness one
  * half, which the shader doubles. */
 static void weave_make(GLuint *texture)
@@ -72,7 +67,7 @@ bool cloth_open(struct draw *draw, char fault[200])
 	glGenBuffers(1, &cloth->fixed);
 	glGenBuffers(1, &cloth->indices);
 	weave_make(&cloth->weave);
-	return surface_open(&cloth->program, true, fault);
+	return surface_open(&cloth->program, true, false, fault);
 }
 
 void cloth_release(struct draw *draw)

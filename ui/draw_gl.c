@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 static const char *const attribute_name[AT_COUNT] = {
-	"a_position", "a_normal", "a_material", "a_place", "a_colour", "a_colour_2",
+	"a_position", "a_normal", "a_material", "a_place", "a_colour", "a_colour_2", "a_fringe",
 };
 
 static const char vertex_300[] = "#version 300 es\n"
@@ -29,15 +29,15 @@ static bool gl_modern(void)
 	return version && !strncmp(version, "OpenGL ES 3", 11);
 }
 
-static GLuint shader_make(GLenum kind, const char *source, char fault[200])
+static GLuint shader_make(GLenum kind, const char *lines, const char *source, char fault[200])
 {
 	bool vertex = kind == GL_VERTEX_SHADER;
 	const char *prelude = gl_modern() ? (vertex ? vertex_300 : fragment_300)
 					  : (vertex ? vertex_100 : fragment_100);
-	const char *parts[2] = {prelude, source};
+	const char *parts[3] = {prelude, lines, source};
 	GLuint shader = glCreateShader(kind);
 	GLint good = GL_FALSE;
-	glShaderSource(shader, 2, parts, NULL);
+	glShaderSource(shader, 3, parts, NULL);
 	glCompileShader(shader);
 	glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
 	if (good)
@@ -49,8 +49,14 @@ static GLuint shader_make(GLenum kind, const char *source, char fault[200])
 
 GLuint gl_program(const char *vertex, const char *fragment, char fault[200])
 {
-	GLuint v = shader_make(GL_VERTEX_SHADER, vertex, fault);
-	GLuint f = v ? shader_make(GL_FRAGMENT_SHADER, fragment, fault) : 0;
+	return gl_program_variant("", vertex, fragment, fault);
+}
+
+GLuint gl_program_variant(const char *lines, const char *vertex, const char *fragment,
+			  char fault[200])
+{
+	GLuint v = shader_make(GL_VERTEX_SHADER, lines, vertex, fault);
+	GLuint f = v ? shader_make(GL_FRAGMENT_SHADER, lines, fragment, fault) : 0;
 	GLuint program = f ? glCreateProgram() : 0;
 	GLint good = GL_FALSE;
 	if (program) {

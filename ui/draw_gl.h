@@ -14,12 +14,17 @@ enum attribute {
 	AT_PLACE,    /* texture coordinates and the like */
 	AT_COLOUR,
 	AT_COLOUR_2,
+	AT_FRINGE,
 	AT_COUNT,
 };
 
 /* Compiles and links; 0 with the compiler's own words in fault. Sources are written in the words of
  * GLSL 1.00 with FRAG for the result, and become 3.00 by a prelude when `modern`. */
 GLuint gl_program(const char *vertex, const char *fragment, char fault[200]);
+
+/* The same with lines (#define ...) before both sources. */
+GLuint gl_program_variant(const char *lines, const char *vertex, const char *fragment,
+			  char fault[200]);
 
 /* True for the renderers that draw on the processor. */
 bool gl_software(void);

@@ -8,6 +8,7 @@
 #include "draw_layer.h"
 
 enum {
+	FRINGE_VERTICES_MAX = 32768,
 	RIBBON_VERTICES_MAX = 49152, /* 1.5 MB: seams, hems, marks, all at once */
 	SPRITES_MAX = 160,
 	SHADOW_SIZE = 512,
@@ -17,6 +18,9 @@ enum {
 	HAND_POINTS_MAX = 1024,
 	EDGE_TABLE_SIZE = 1 << 16,
 };
+
+/* How much deeper than it is the body is taken to be, so that cloth on it hides it. */
+static const float body_bias_m = 0.007f;
 
 /* The eye, as matrices. */
 struct camera {
@@ -32,7 +36,7 @@ struct camera {
 /* Lit surfaces: body and cloth. */
 struct surface_program {
 	GLuint program;
-	GLint clip, axes, light, eye, depth, bias, shadow, weave, strength;
+	GLint clip, axes, light, eye, depth, bias, shadow, weave, strength, pixel;
 };
 
 /* An edge of the garment with a triangle on one side only. */
@@ -42,8 +46,10 @@ struct rim {
 };
 
 struct edge_use {
-	int a, b, inner; /* particles a < b as keys; inner as in rim */
-	int from, to;    /* garment vertices in the triangle's order */
+	int a, b;     /* keys, a < b */
+	int from, to; /* garment vertices in the first triangle's order */
+	int inner;    /* as in rim */
+	int triangle[2];
 	int count, next;
 };
 
@@ -66,6 +72,17 @@ struct draw_body {
 	float *open_sky; /* per body vertex: 0 closed in, 1 free */
 	uint64_t hash;   /* of the body that was uploaded */
 	bool stale;
+};
+
+struct body_vertex {
+	struct v3 position_m;
+	struct v3 normal;
+	uint8_t material[4]; /* openness to the sky */
+};
+
+struct cloth_fixed {
+	float place[2]; /* in widths of the weave */
+	uint8_t outside[4], inside[4];
 };
 
 struct cloth_vertex {
@@ -93,9 +110,10 @@ struct draw_cloth {
 	/* rims: edges of one triangle only, once seams are closed */
 	int rim_count;
 	struct rim *rim;
-	int *edge_table; /* hash of an edge -> edge_use */
-	struct edge_use *edge_use;
-	uint8_t *stitched; /* per vertex: on the side of a seam that shows its stitches */
+	int edge_count;
+	int *edge_table;           /* hash of an edge -> edge_use */
+	struct edge_use *edge_use; /* by particles, once rims are known */
+	uint8_t *stitched;         /* per vertex: on the side of a seam that shows its stitches */
 	bool rims_known, rims_welded;
 };
 
@@ -129,6 +147,22 @@ struct stroke {
 	float half_px;
 	enum dash_row row;
 	float period; /* metres or pixels, as `along` is counted */
+};
+
+/* A corner of an outline's fringe: a surface's vertex, and where it is moved to. */
+struct fringe_vertex {
+	struct v3 position_m, normal;
+	float shift_px[2], cover, side;
+	float place[2];
+	uint8_t material[4], colour[4], colour_2[4];
+};
+
+struct fringe {
+	GLuint vertices;
+	struct surface_program body, cloth;
+	int count;
+	struct fringe_vertex *vertex; /* 4 a segment */
+	uint8_t *facing;              /* per triangle: seen from its front */
 };
 
 struct sprite_vertex {
@@ -193,6 +227,7 @@ struct draw {
 	struct draw_body body;
 	struct draw_cloth cloth;
 	struct ribbons ribbons;
+	struct fringe fringe;
 	struct sprites sprites;
 	struct shadow shadow;
 	struct draw_marks marks;
@@ -210,7 +245,7 @@ void camera_make(struct camera *camera, const struct view *view, const struct bo
 /* Where a point is on the screen in clip coordinates, moved towards the viewer by lift_m. */
 void camera_clip(const struct camera *camera, struct v3 point_m, float lift_m, float clip[4]);
 
-bool surface_open(struct surface_program *surface, bool cloth, char fault[200]);
+bool surface_open(struct surface_program *surface, bool cloth, bool fringe, char fault[200]);
 void surface_use(const struct surface_program *surface, const struct draw *draw, float bias_m);
 
 void pane_enter(const struct draw *draw, const struct rect *pane);
@@ -242,6 +277,15 @@ void cloth_release(struct draw *draw);
 void cloth_upload(struct draw *draw, const struct session *session);
 void cloth_bind(const struct draw *draw);
 void cloth_draw(struct draw *draw);
+
+/* Soft outlines: what multisampling would do, for the price of the outline alone. */
+bool fringe_open(struct draw *draw, char fault[200]);
+void fringe_release(struct draw *draw);
+void fringe_body_draw(struct draw *draw, const struct body *body);
+void fringe_cloth_draw(struct draw *draw, const struct session *session);
+
+/* Finds rims and edges of the garment when it or its seams have changed. */
+void trim_follow(struct draw *draw, const struct session *session);
 
 /* Seams, stitches and hems of the worn garment, as ribbons. */
 void trim_add(struct draw *draw, const struct session *session);

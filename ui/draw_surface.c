@@ -18,17 +18,36 @@
 	"attribute vec3 a_position, a_normal;\n"                                                   \
 	"attribute vec4 a_material;\n"                                                             \
 	"varying vec3 v_shadow;\n"                                                                 \
+	"#ifdef FRINGE\n"                                                                          \
+	"uniform vec2 u_pixel;\n"                                                                  \
+	"attribute vec4 a_fringe;\n"                                                               \
+	"varying vec2 v_fringe;\n"                                                                 \
+	"#endif\n"                                                                                 \
 	"const vec3 KEY = vec3(-0.506, 0.643, 0.575);\n"                                           \
 	"const vec3 EDGE = vec3(0.770, 0.300, -0.563);\n"                                          \
 	"vec4 place(vec3 position) {\n"                                                            \
 	"  vec4 clip = u_clip * vec4(position, 1.0);\n"                                            \
 	"  clip.z = (u_depth.x - u_depth.y / (clip.w + u_bias)) * clip.w;\n"                       \
+	"#ifdef FRINGE\n"                                                                          \
+	"  clip.xy += a_fringe.xy * u_pixel * clip.w;\n"                                           \
+	"  v_fringe = a_fringe.zw;\n"                                                              \
+	"#endif\n"                                                                                 \
 	"  v_shadow = (u_light * vec4(position, 1.0)).xyz * 0.5 + 0.5;\n"                          \
 	"  return clip;\n"                                                                         \
 	"}\n"
 
 /* The share of the key that gets through. */
+/* A fringe is a strip one pixel wide along an outline: coverage and the side that is seen come with
+ * its vertices (draw_fringe.c). */
 #define SHADOW_HEAD                                                                                \
+	"#ifdef FRINGE\n"                                                                          \
+	"varying vec2 v_fringe;\n"                                                                 \
+	"#define FRONT (v_fringe.y > 0.0)\n"                                                       \
+	"#define SHOW(colour) vec4(colour, 1.0) * v_fringe.x\n"                                    \
+	"#else\n"                                                                                  \
+	"#define FRONT gl_FrontFacing\n"                                                           \
+	"#define SHOW(colour) vec4(colour, 1.0)\n"                                                 \
+	"#endif\n"                                                                                 \
 	"#ifdef SHADOWS\n"                                                                         \
 	"uniform sampler2DShadow u_shadow;\n"                                                      \
 	"uniform float u_strength;\n"                                                              \
@@ -44,18 +63,18 @@ static const char body_vertex_source[] = SURFACE_HEAD
 	"  vec3 n = u_axes * a_normal;\n"
 	"  float open = a_material.x;\n"
 	"  float edge = max(dot(n, EDGE), 0.0);\n"
-	"  vec3 sky = mix(vec3(0.20, 0.165, 0.125), vec3(0.36, 0.365, 0.37), 0.5 + 0.5 * "
+	"  vec3 sky = mix(vec3(0.19, 0.155, 0.115), vec3(0.36, 0.362, 0.365), 0.5 + 0.5 * "
 	"a_normal.y);\n"
 	"  v_ambient = (sky + vec3(0.20, 0.22, 0.25) * edge * edge) * open;\n"
 	"  float key = max((dot(n, KEY) + 0.18) * 0.847, 0.0);\n"
-	"  v_key = vec3(0.74, 0.70, 0.63) * key * (0.55 + 0.45 * open);\n"
+	"  v_key = vec3(0.83, 0.79, 0.715) * key * (0.55 + 0.45 * open);\n"
 	"}\n";
 
 static const char body_fragment_source[] = SHADOW_HEAD
 	"varying vec3 v_ambient, v_key, v_shadow;\n"
 	"void main() {\n"
 	"  vec3 light = v_ambient + v_key * lit(v_shadow);\n"
-	"  FRAG = vec4(sqrt(vec3(0.800, 0.716, 0.590) * light), 1.0);\n"
+	"  FRAG = SHOW(sqrt(vec3(0.815, 0.742, 0.632) * light));\n"
 	"}\n";
 
 /* a_material of cloth: openness to the sky, glow of the growing front. v_side carries what flips
@@ -83,9 +102,9 @@ static const char cloth_fragment_source[] = SHADOW_HEAD
 	"varying vec4 v_light;\n"
 	"varying vec3 v_outside, v_inside, v_place, v_shadow;\n"
 	"void main() {\n"
-	"  float side = gl_FrontFacing ? 1.0 : -1.0;\n"
-	"  vec3 colour = gl_FrontFacing ? v_outside : v_inside;\n"
-	"  float open = gl_FrontFacing ? v_light.z : v_light.z * 0.72;\n"
+	"  float side = FRONT ? 1.0 : -1.0;\n"
+	"  vec3 colour = FRONT ? v_outside : v_inside;\n"
+	"  float open = FRONT ? v_light.z : v_light.z * 0.72;\n"
 	"  float key = max((v_light.x * side + 0.12) * 0.893, 0.0) * lit(v_shadow);\n"
 	"  vec3 sky = mix(vec3(0.17, 0.145, 0.12), vec3(0.40, 0.41, 0.42),\n"
 	"                 0.5 + 0.5 * v_light.y * side);\n"
@@ -93,13 +112,14 @@ static const char cloth_fragment_source[] = SHADOW_HEAD
 	"  vec3 light = sky * open + vec3(1.02, 0.97, 0.88) * key * (0.5 + 0.5 * open);\n"
 	"  colour = colour * light * weave + v_light.w * (0.3 + colour);\n"
 	"  colour += vec3(0.95, 0.62, 0.25) * v_place.z;\n"
-	"  FRAG = vec4(sqrt(colour), 1.0);\n"
+	"  FRAG = SHOW(sqrt(colour));\n"
 	"}\n";
 
-bool surface_open(struct surface_program *surface, bool cloth, char fault[200])
+bool surface_open(struct surface_program *surface, bool cloth, bool fringe, char fault[200])
 {
-	GLuint program = gl_program(cloth ? cloth_vertex_source : body_vertex_source,
-				    cloth ? cloth_fragment_source : body_fragment_source, fault);
+	GLuint program = gl_program_variant(
+		fringe ? "#define FRINGE\n" : "", cloth ? cloth_vertex_source : body_vertex_source,
+		cloth ? cloth_fragment_source : body_fragment_source, fault);
 	if (!program)
 		return false;
 	*surface = (struct surface_program){
@@ -112,6 +132,7 @@ bool surface_open(struct surface_program *surface, bool cloth, char fault[200])
 		.bias = glGetUniformLocation(program, "u_bias"),
 		.shadow = glGetUniformLocation(program, "u_shadow"),
 		.weave = glGetUniformLocation(program, "u_weave"),
+		.pixel = glGetUniformLocation(program, "u_pixel"),
 		.strength = glGetUniformLocation(program, "u_strength"),
 	};
 	return true;
@@ -128,6 +149,7 @@ void surface_use(const struct surface_program *surface, const struct draw *draw,
 	glUniform2f(surface->depth, camera->depth[0], camera->depth[1]);
 	glUniform1f(surface->bias, bias_m);
 	glUniform1f(surface->strength, draw->shadow.size ? 0.82f : 0.0f);
+	glUniform2f(surface->pixel, 2.0f / (float)camera->pane.w, 2.0f / (float)camera->pane.h);
 	glUniform1i(surface->shadow, 1);
 	glUniform1i(surface->weave, 0);
 	glActiveTexture(GL_TEXTURE1);

@@ -34,6 +34,7 @@ static int edges_count(struct draw_cloth *cloth, const struct garment *garment, 
 			int a = map ? map[from] : from, b = map ? map[to] : to;
 			struct edge_use *edge = edge_find(cloth, a, b);
 			if (edge) {
+				edge->triangle[1] = t;
 				edge->count++;
 				continue;
 			}
@@ -41,8 +42,15 @@ static int edges_count(struct draw_cloth *cloth, const struct garment *garment, 
 				return count;
 			unsigned slot = edge_slot(int_min(a, b), int_max(a, b));
 			cloth->edge_use[count] = (struct edge_use){
-				int_min(a, b),          int_max(a, b), v[(k + 2) % 3], from, to, 1,
-				cloth->edge_table[slot]};
+				.a = int_min(a, b),
+				.b = int_max(a, b),
+				.from = from,
+				.to = to,
+				.inner = v[(k + 2) % 3],
+				.triangle = {t, t},
+				.count = 1,
+				.next = cloth->edge_table[slot],
+			};
 			cloth->edge_table[slot] = count++;
 		}
 	}
@@ -68,7 +76,7 @@ static void rims_find(struct draw_cloth *cloth, const struct session *session)
 			cloth->rim[cloth->rim_count++] = (struct rim){edge->from, edge->to,
 								      edge->inner, false};
 	}
-	edges_count(cloth, garment, session->cloth.particle);
+	cloth->edge_count = edges_count(cloth, garment, session->cloth.particle);
 	for (int r = 0; r < cloth->rim_count; r++) {
 		struct rim *rim = &cloth->rim[r];
 		const struct edge_use *edge = edge_find(cloth, session->cloth.particle[rim->a],
@@ -121,14 +129,20 @@ static void rim_add(struct draw *draw, const struct rim *rim, bool welded)
 		stitches_add(draw, v3_mad(a_m, inward, hem_m), v3_mad(b_m, inward, hem_m), 0.62f);
 }
 
-void trim_add(struct draw *draw, const struct session *session)
+void trim_follow(struct draw *draw, const struct session *session)
 {
 	struct draw_cloth *cloth = &draw->cloth;
+	if (cloth->index_count &&
+	    (!cloth->rims_known || cloth->rims_welded != session->cloth.welded))
+		rims_find(cloth, session);
+}
+
+void trim_add(struct draw *draw, const struct session *session)
+{
+	const struct draw_cloth *cloth = &draw->cloth;
 	const uint8_t *placed = session->cloth.placed;
 	if (!cloth->index_count)
 		return;
-	if (!cloth->rims_known || cloth->rims_welded != session->cloth.welded)
-		rims_find(cloth, session);
 	for (int r = 0; r < cloth->rim_count; r++) {
 		const struct rim *rim = &cloth->rim[r];
 		if (placed[rim->a] && placed[rim->b] && placed[rim->inner])
