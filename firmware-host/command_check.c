@@ -3,7 +3,7 @@
 
 #include "board.h"
 #include "character.h"
-#include "format_obj.h"
+#include "format_garment.h"
 #include "journal_file.h"
 #include "options.h"
 #include "pen.h"
@@ -114,6 +114,31 @@ static bool check_journal(struct inspector *inspector, const char *path)
 	return faults == 0;
 }
 
+static bool check_pattern(struct inspector *inspector, const char *path)
+{
+	static struct pattern pattern;
+	size_t size;
+	char wrong[200], line[FAULT_BYTES];
+	int pieces = 0, seams = 0;
+	char *text = store_read(path, &size, inspector->fault);
+	if (!text)
+		return fail(inspector);
+	bool read = format_garment_read(&pattern, text, size, wrong);
+	free(text);
+	if (!read) {
+		snprintf(inspector->fault, FAULT_BYTES, "%.250s: %s", path, wrong);
+		return fail(inspector);
+	}
+	for (int p = 0; p < PIECES_MAX; p++)
+		pieces += pattern.piece[p].used;
+	for (int s = 0; s < SEAMS_MAX; s++)
+		seams += pattern.seam[s].used;
+	snprintf(line, sizeof line, "%.250s: a pattern, sound: %d pieces, %d seams", path, pieces,
+		 seams);
+	say(line);
+	return true;
+}
+
 static bool check_board(struct inspector *inspector, const char *path)
 {
 	struct board board;
@@ -203,13 +228,15 @@ static bool check_file(struct inspector *inspector, const char *path)
 	if (line_begins(head, "# kitsuke-tape") || line_begins(head, "D:") ||
 	    line_begins(head, "R:") || line_begins(head, "E:") || ends_with(path, ".hid"))
 		return check_tape(inspector, path);
+	if (ends_with(path, ".json"))
+		return check_pattern(inspector, path);
 	if (ends_with(path, ".board"))
 		return check_board(inspector, path);
 	if (line_begins(head, "v ") || ends_with(path, ".obj"))
 		return check_body(inspector, path);
 	snprintf(inspector->fault, FAULT_BYTES,
 		 "%.250s: what kind of file is this? Known are journals (.kitsuke), tapes (.hid), "
-		 "boards (.board) and bodies (.obj)",
+		 "bodies (.obj), patterns (.json) and boards (.board)",
 		 path);
 	return fail(inspector);
 }

@@ -11,6 +11,7 @@ enum exit_status {
 
 int command_replay(int argc, char **argv);
 int command_dress(int argc, char **argv);
+int command_import(int argc, char **argv);
 int command_check(int argc, char **argv);
 int command_record(int argc, char **argv);
 int command_devices(int argc, char **argv);
