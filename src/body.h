@@ -78,6 +78,10 @@ bool body_find_parts(struct body *body);
 /* Exact nearest surface point. `parts` is a bit set of enum body_part to consider; 0 means all. */
 void body_nearest(const struct body *body, struct v3 point_m, unsigned parts, struct body_hit *hit);
 
+/* The same, quicker when triangle `from` is known to lie near (-1: none). */
+void body_nearest_from(const struct body *body, struct v3 point_m, unsigned parts, int from,
+		       struct body_hit *hit);
+
 /* The nearest point found by walking downhill from triangle `from` over stars, at most `steps_max`
  * steps (S17). Local: may be stuck on another limb; the caller refreshes by body_nearest. Returns
  * the triangles looked at. */

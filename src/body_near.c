@@ -128,20 +128,19 @@ static bool on_rim(const struct body *body, const struct nearest *n, unsigned pa
 	return false;
 }
 
-void body_nearest(const struct body *body, struct v3 point_m, unsigned parts, struct body_hit *hit)
+static void search(const struct body *body, struct v3 point_m, unsigned parts, struct nearest *best)
 {
-	struct nearest best = {0, ON_FACE, {0.0f, 0.0f, 0.0f}, 1e18f};
 	int stack[STACK_MAX], depth = 0;
 	MUST(body->triangle_count > 0);
 	stack[depth++] = 0;
 	while (depth > 0) {
 		const struct bvh_node *node = &body->node[stack[--depth]];
-		if (box_d2(node, point_m) >= best.d2)
+		if (box_d2(node, point_m) >= best->d2)
 			continue;
 		for (int i = 0; i < node->count; i++) {
 			int t = body->node_triangle[node->first + i];
 			if (!parts || (parts >> body->part[t] & 1))
-				look(body, point_m, t, &best);
+				look(body, point_m, t, best);
 		}
 		if (node->count > 0)
 			continue;
@@ -151,28 +150,44 @@ void body_nearest(const struct body *body, struct v3 point_m, unsigned parts, st
 		stack[depth++] = node->first + (left <= right);
 		stack[depth++] = node->first + (left > right);
 	}
+}
+
+void body_nearest_from(const struct body *body, struct v3 point_m, unsigned parts, int from,
+		       struct body_hit *hit)
+{
+	struct nearest best = {0, ON_FACE, {0.0f, 0.0f, 0.0f}, 1e18f};
+	if (from >= 0 && (!parts || (parts >> body->part[from] & 1)))
+		look(body, point_m, from, &best);
+	search(body, point_m, parts, &best);
 	finish(body, point_m, &best, hit);
 	if (parts && on_rim(body, &best, parts))
 		hit->distance_m = sqrtf(best.d2) + 0.05f;
 }
 
+void body_nearest(const struct body *body, struct v3 point_m, unsigned parts, struct body_hit *hit)
+{
+	body_nearest_from(body, point_m, parts, -1, hit);
+}
+
+/* One step downhill: over the edge that holds the nearest point, or round its vertex. Inside a face
+ * nothing can be nearer but another sheet of the surface. */
 int body_walk(const struct body *body, struct v3 point_m, int from, int steps_max,
 	      struct body_hit *hit)
 {
 	struct nearest best = {from, ON_FACE, {0.0f, 0.0f, 0.0f}, 1e18f};
 	int looked = 1;
 	look(body, point_m, from, &best);
-	for (int step = 0; step < steps_max; step++) {
+	for (int step = 0; step < steps_max && best.feature != ON_FACE; step++) {
 		int at = best.triangle;
-		/* inside a face no neighbour can be nearer but by another sheet of the surface */
-		if (best.feature == ON_FACE)
-			break;
-		for (int k = 0; k < 3; k++) {
-			int v = body->triangle[at].v[k];
-			for (int i = body->star_first[v]; i < body->star_first[v + 1]; i++) {
+		if (best.feature < ON_VERTEX) {
+			look(body, point_m, body->neighbour[3 * at + best.feature - ON_EDGE],
+			     &best);
+			looked++;
+		} else {
+			int v = body->triangle[at].v[best.feature - ON_VERTEX];
+			for (int i = body->star_first[v]; i < body->star_first[v + 1]; i++)
 				look(body, point_m, body->star[i], &best);
-				looked++;
-			}
+			looked += body->star_first[v + 1] - body->star_first[v];
 		}
 		if (best.triangle == at)
 			break;

@@ -25,7 +25,8 @@ static void take_hit(struct contact *contact, struct v3 p, const struct body_hit
 void cloth_look(struct cloth *cloth, int v)
 {
 	struct body_hit hit;
-	body_nearest(cloth->body, cloth->position_m[v], allowed_parts(cloth, v), &hit);
+	body_nearest_from(cloth->body, cloth->position_m[v], allowed_parts(cloth, v),
+			  cloth->contact[v].triangle, &hit);
 	take_hit(&cloth->contact[v], cloth->position_m[v], &hit);
 }
 
