@@ -1,0 +1,394 @@
+/* The thread that reads tablets, and the queue between it and the frame loop; see pen_live.h.
+ *
+ * One thread polls all open tablets: hidraw keeps 64 reports (128 ms at 500 Hz) and drops the
+ * newest when nobody reads, so reading must not wait for a frame. udev tells of new nodes after its
+ * rules have set their permissions; where there is no udev, and for a permission that is mended
+ * later, the thread looks again every second. */
+#include "pen_live.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <libudev.h>
+#include <poll.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+#include <unistd.h>
+
+enum {
+	QUEUE_MAX = 1024,   /* reports: 2 s of a 500 Hz tablet */
+	QUEUE_RESERVE = 16, /* kept free for plugging and unplugging */
+	RESCAN_MS = 1000,
+	SIZE_UNPLUGGED = 0,
+	SIZE_PLUGGED = -1,
+};
+
+struct tablet {
+	int fd; /* -1: free */
+	bool own;
+	char path[64];
+	char place[96];
+	int layout_count;
+	struct pen_layout layout[PEN_REPORTS_MAX];
+};
+
+struct pen_live {
+	pthread_t thread;
+	int wake[2]; /* a byte stops the thread */
+	int64_t start_us;
+	struct board board;
+	struct udev *udev;
+	struct udev_monitor *monitor;
+	struct pen_node *nodes; /* the thread's */
+
+	pthread_mutex_t lock; /* for all below */
+	struct tablet tablet[LIVE_TABLETS_MAX];
+	struct tape_device told[PEN_DEVICES_MAX];
+	int first, count;
+	long lost;
+	char text[LIVE_TEXT_MAX];
+	struct raw_report queue[QUEUE_MAX];
+};
+
+int64_t pen_live_clock_us(void)
+{
+	struct timespec now;
+	clock_gettime(CLOCK_MONOTONIC, &now);
+	return (int64_t)now.tv_sec * 1000000 + now.tv_nsec / 1000;
+}
+
+/* --- queue ------------------------------------------------------------------------------------ */
+
+static void queue_add(struct pen_live *live, int device, int64_t time_us, int size,
+		      const uint8_t *bytes)
+{
+	int room = size > 0 ? QUEUE_MAX - QUEUE_RESERVE : QUEUE_MAX;
+	if (live->count >= room) {
+		live->lost++;
+		return;
+	}
+	struct raw_report *report = &live->queue[(live->first + live->count++) % QUEUE_MAX];
+	report->device = device;
+	report->time_us = time_us;
+	report->size = size;
+	if (size > 0)
+		memcpy(report->bytes, bytes, (size_t)size);
+}
+
+void pen_live_push(struct pen_live *live, int device, int64_t time_us, int size,
+		   const uint8_t *bytes)
+{
+	MUST(device >= 0 && device < PEN_DEVICES_MAX && size > 0 && size <= REPORT_BYTES_MAX);
+	pthread_mutex_lock(&live->lock);
+	queue_add(live, device, time_us, size, bytes);
+	pthread_mutex_unlock(&live->lock);
+}
+
+void pen_live_plug(struct pen_live *live, int device, const struct tape_device *told)
+{
+	MUST(device >= 0 && device < PEN_DEVICES_MAX);
+	pthread_mutex_lock(&live->lock);
+	live->told[device] = *told;
+	queue_add(live, device, pen_live_clock_us() - live->start_us, SIZE_PLUGGED, NULL);
+	pthread_mutex_unlock(&live->lock);
+}
+
+void pen_live_unplug(struct pen_live *live, int device)
+{
+	pthread_mutex_lock(&live->lock);
+	queue_add(live, device, pen_live_clock_us() - live->start_us, SIZE_UNPLUGGED, NULL);
+	pthread_mutex_unlock(&live->lock);
+}
+
+struct live_changes pen_live_collect(struct pen_live *live, struct frame_reports *reports)
+{
+	struct live_changes changes = {0};
+	unsigned reported = 0;
+	pthread_mutex_lock(&live->lock);
+	for (; live->count; live->count--, live->first = (live->first + 1) % QUEUE_MAX) {
+		const struct raw_report *next = &live->queue[live->first];
+		unsigned bit = 1u << next->device;
+		/* Plugged, reports, unplugged: a frame takes each device through that order once.
+		 */
+		if (changes.unplugged & bit || (next->size == SIZE_PLUGGED && reported & bit))
+			break;
+		if (next->size == SIZE_PLUGGED) {
+			changes.plugged |= bit;
+		} else if (next->size == SIZE_UNPLUGGED) {
+			changes.unplugged |= bit;
+		} else if (reports->count < FRAME_REPORTS_MAX) {
+			reports->report[reports->count++] = *next;
+			reported |= bit;
+		} else {
+			break;
+		}
+	}
+	pthread_mutex_unlock(&live->lock);
+	return changes;
+}
+
+void pen_live_device(struct pen_live *live, int device, struct tape_device *told)
+{
+	MUST(device >= 0 && device < PEN_DEVICES_MAX);
+	pthread_mutex_lock(&live->lock);
+	*told = live->told[device];
+	pthread_mutex_unlock(&live->lock);
+}
+
+void pen_live_text(struct pen_live *live, char text[LIVE_TEXT_MAX])
+{
+	pthread_mutex_lock(&live->lock);
+	memcpy(text, live->text, LIVE_TEXT_MAX);
+	pthread_mutex_unlock(&live->lock);
+}
+
+long pen_live_lost(struct pen_live *live)
+{
+	pthread_mutex_lock(&live->lock);
+	long lost = live->lost;
+	pthread_mutex_unlock(&live->lock);
+	return lost;
+}
+
+/* --- tablets ---------------------------------------------------------------------------------- */
+
+/* A tablet that comes back to its place gets its number back; else the first number that no
+ * tablet has had, else any that is free. -1: all are in use. */
+static int tablet_number(const struct pen_live *live, const char *place)
+{
+	int unused = -1, idle = -1;
+	for (int i = LIVE_TABLETS_MAX - 1; i >= 0; i--) {
+		const struct tablet *tablet = &live->tablet[i];
+		if (tablet->fd >= 0)
+			continue;
+		if (!strcmp(tablet->place, place))
+			return i;
+		idle = i;
+		unused = tablet->place[0] ? unused : i;
+	}
+	return unused >= 0 ? unused : idle;
+}
+
+static int tablet_add(struct pen_live *live, int fd, bool own, const char *path, const char *place,
+		      const struct tape_device *told)
+{
+	char reason[160];
+	pthread_mutex_lock(&live->lock);
+	int device = tablet_number(live, place);
+	if (device >= 0) {
+		struct tablet *tablet = &live->tablet[device];
+		snprintf(tablet->path, sizeof tablet->path, "%s", path);
+		snprintf(tablet->place, sizeof tablet->place, "%s", place);
+		tablet->layout_count = pen_descriptor_read(told->descriptor, told->descriptor_size,
+							   tablet->layout, reason);
+		tablet->own = own;
+		tablet->fd = fd;
+	}
+	pthread_mutex_unlock(&live->lock);
+	if (device >= 0)
+		pen_live_plug(live, device, told);
+	return device;
+}
+
+static void tablet_remove(struct pen_live *live, int device)
+{
+	pthread_mutex_lock(&live->lock);
+	struct tablet *tablet = &live->tablet[device];
+	if (tablet->own)
+		close(tablet->fd);
+	tablet->fd = -1;
+	pthread_mutex_unlock(&live->lock);
+	pen_live_unplug(live, device);
+}
+
+/* Takes what one tablet has ready. Only reports with a pen are kept: the same node may be a
+ * keyboard too, and what is typed is nobody's business. */
+static void tablet_read(struct pen_live *live, int device)
+{
+	struct tablet *tablet = &live->tablet[device];
+	for (int i = 0; i < 64; i++) {
+		uint8_t bytes[REPORT_BYTES_MAX];
+		struct pen_fields fields;
+		bool cut_off;
+		ssize_t size = read(tablet->fd, bytes, sizeof bytes);
+		if (size < 0 && (errno == EAGAIN || errno == EINTR))
+			return;
+		if (size <= 0) {
+			tablet_remove(live, device);
+			return;
+		}
+		int64_t time_us = pen_live_clock_us() - live->start_us;
+		if (pen_report_read(tablet->layout, tablet->layout_count, bytes, (int)size, &fields,
+				    &cut_off))
+			pen_live_push(live, device, time_us, (int)size, bytes);
+	}
+}
+
+int pen_live_attach(struct pen_live *live, int fd, const char *place,
+		    const struct tape_device *told)
+{
+	int flags = fcntl(fd, F_GETFL);
+	fcntl(fd, F_SETFL, flags | O_NONBLOCK);
+	int device = tablet_add(live, fd, false, place, place, told);
+	if (device >= 0 && write(live->wake[1], "a", 1) < 0)
+		return -1;
+	return device;
+}
+
+/* --- searching -------------------------------------------------------------------------------- */
+
+static bool node_wanted(const struct pen_live *live, const struct pen_node *node)
+{
+	const struct board *board = &live->board;
+	bool any = !board->tablet_vendor && !board->tablet_product;
+	return node->layout_count && (any || (node->told.vendor == board->tablet_vendor &&
+					      node->told.product == board->tablet_product));
+}
+
+static bool node_open(struct pen_live *live, const struct pen_node *node)
+{
+	bool found = false;
+	pthread_mutex_lock(&live->lock);
+	for (int i = 0; i < LIVE_TABLETS_MAX; i++)
+		found |= live->tablet[i].fd >= 0 && !strcmp(live->tablet[i].path, node->path);
+	pthread_mutex_unlock(&live->lock);
+	return found;
+}
+
+static void text_set(struct pen_live *live, const char *name, const char *text)
+{
+	pthread_mutex_lock(&live->lock);
+	snprintf(live->text, sizeof live->text, "%.80s%s%.150s", name, *name ? ": " : "", text);
+	pthread_mutex_unlock(&live->lock);
+}
+
+static void tablets_search(struct pen_live *live)
+{
+	int count = pen_nodes_find(live->nodes, LIVE_NODES_MAX);
+	const struct pen_node *told = NULL;
+	for (int i = 0; i < count; i++) {
+		struct pen_node *node = &live->nodes[i];
+		if (!node_wanted(live, node))
+			continue;
+		told = told && told->readable ? told : node;
+		if (!node->readable || node_open(live, node))
+			continue;
+		int fd = open(node->path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+		node->told.width_mm = live->board.tablet_width_mm;
+		node->told.height_mm = live->board.tablet_height_mm;
+		if (fd >= 0 && tablet_add(live, fd, true, node->path, node->place, &node->told) < 0)
+			close(fd);
+	}
+	if (told)
+		text_set(live, told->told.name, told->text);
+	else
+		text_set(live, "",
+			 count ? "no pen tablet among the HID devices; `kitsuke devices` "
+				 "tells why"
+			       : "no HID device is attached");
+}
+
+/* --- the thread ------------------------------------------------------------------------------- */
+
+/* Waits for the tablets, for udev, for a wake-up, at most a second. False: to be stopped. */
+static bool wait_and_read(struct pen_live *live, bool *search)
+{
+	struct pollfd fds[2 + LIVE_TABLETS_MAX];
+	fds[0] = (struct pollfd){live->wake[0], POLLIN, 0};
+	fds[1] = (struct pollfd){live->monitor ? udev_monitor_get_fd(live->monitor) : -1, POLLIN,
+				 0};
+	pthread_mutex_lock(&live->lock);
+	for (int i = 0; i < LIVE_TABLETS_MAX; i++)
+		fds[2 + i] = (struct pollfd){live->tablet[i].fd, POLLIN, 0};
+	pthread_mutex_unlock(&live->lock);
+	poll(fds, COUNT_OF(fds), RESCAN_MS);
+	char byte = 'a';
+	if (fds[0].revents && read(live->wake[0], &byte, 1) == 1 && byte == 'q')
+		return false;
+	if (fds[1].revents) {
+		struct udev_device *device = udev_monitor_receive_device(live->monitor);
+		udev_device_unref(device);
+		*search = true;
+	}
+	for (int i = 0; i < LIVE_TABLETS_MAX; i++)
+		if (fds[2 + i].revents)
+			tablet_read(live, i);
+	return true;
+}
+
+static void *thread_main(void *argument)
+{
+	struct pen_live *live = argument;
+	int64_t searched_us = 0;
+	bool search = true;
+	do {
+		int64_t now_us = pen_live_clock_us();
+		if (search || now_us - searched_us >= RESCAN_MS * INT64_C(1000)) {
+			tablets_search(live);
+			searched_us = now_us;
+			search = false;
+		}
+	} while (wait_and_read(live, &search));
+	return NULL;
+}
+
+static void monitor_open(struct pen_live *live)
+{
+	live->udev = udev_new();
+	live->monitor = live->udev ? udev_monitor_new_from_netlink(live->udev, "udev") : NULL;
+	if (!live->monitor)
+		return;
+	udev_monitor_filter_add_match_subsystem_devtype(live->monitor, "hidraw", NULL);
+	if (udev_monitor_enable_receiving(live->monitor) < 0) {
+		udev_monitor_unref(live->monitor);
+		live->monitor = NULL;
+	}
+}
+
+static void live_free(struct pen_live *live)
+{
+	for (int i = 0; i < LIVE_TABLETS_MAX; i++)
+		if (live->tablet[i].fd >= 0 && live->tablet[i].own)
+			close(live->tablet[i].fd);
+	udev_monitor_unref(live->monitor);
+	udev_unref(live->udev);
+	if (live->wake[0] >= 0) {
+		close(live->wake[0]);
+		close(live->wake[1]);
+	}
+	pthread_mutex_destroy(&live->lock);
+	free(live->nodes);
+	free(live);
+}
+
+struct pen_live *pen_live_open(const struct board *board, int64_t start_us)
+{
+	struct pen_live *live = calloc(1, sizeof *live);
+	if (!live)
+		return NULL;
+	live->board = *board;
+	live->start_us = start_us;
+	live->wake[0] = live->wake[1] = -1;
+	pthread_mutex_init(&live->lock, NULL);
+	for (int i = 0; i < LIVE_TABLETS_MAX; i++)
+		live->tablet[i].fd = -1;
+	snprintf(live->text, sizeof live->text, "looking for a tablet");
+	live->nodes = calloc(LIVE_NODES_MAX, sizeof *live->nodes);
+	monitor_open(live);
+	if (!live->nodes || pipe2(live->wake, O_CLOEXEC) < 0 ||
+	    pthread_create(&live->thread, NULL, thread_main, live)) {
+		live_free(live);
+		return NULL;
+	}
+	return live;
+}
+
+void pen_live_close(struct pen_live *live)
+{
+	if (!live)
+		return;
+	if (write(live->wake[1], "q", 1) == 1)
+		pthread_join(live->thread, NULL);
+	live_free(live);
+}
