@@ -5,6 +5,7 @@
  */
 #include "body.h"
 #include "mannequin_fair.h"
+#include "mannequin_tables.h"
 
 #define HEIGHT_M 1.70f
 
@@ -169,6 +170,7 @@ static void smooth(struct maker *maker)
 		{{0.205f, 1.340f, -0.010f}, 0.080f, 30},  /* deltoid */
 		{{0.315f, 1.170f, -0.015f}, 0.070f, 20},  /* elbow */
 		{{0.000f, 1.440f, -0.020f}, 0.100f, 25},  /* neck */
+		{{0.000f, 1.480f, 0.048f}, 0.050f, 15},   /* throat */
 		{{0.000f, 0.815f, 0.015f}, 0.120f, 300},  /* crotch */
 		{{0.120f, 0.825f, 0.000f}, 0.140f, 30},   /* hip line */
 		{{0.100f, 0.088f, 0.035f}, 0.050f, 40},   /* instep */

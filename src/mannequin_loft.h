@@ -3,16 +3,25 @@
 #ifndef MANNEQUIN_LOFT_H
 #define MANNEQUIN_LOFT_H
 
-#include "mannequin_tables.h"
 #include "triangle.h"
 #include "vec.h"
 
 enum {
+	SECTION_ORDER = 8,
+	SECTION_COLUMNS = 7 + 2 * SECTION_ORDER,
 	LOFT_ROWS_MAX = 32,
 	RING_VERTICES_MAX = 128,
 };
 
-/* A surface point is loft_point(along, angle): `along` in metres from the first section, measured
+/* A section is a ring of points about an origin: at the angle a, the point lies at the distance
+ * sum(cosine[m] cos(m a) + sine[m] sin(m a)) in the direction that a and the cone's angle give in
+ * a frame whose axis is +Y, pitched about X and then rolled about Z. The angle runs from the front
+ * (+Z) to the wearer's left (+X); a cone of 0 is a plane.
+ *
+ * Columns: origin x y z, pitch, roll, cone, cosine[0 .. SECTION_ORDER], sine[1 .. SECTION_ORDER],
+ * in 0.1 mm and 0.1 mrad.
+ *
+ * A surface point is loft_point(along, angle): `along` in metres from the first section, measured
  * as the mean distance between neighbouring sections. */
 struct loft {
 	const short (*section)[SECTION_COLUMNS];

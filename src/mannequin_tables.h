@@ -1,14 +1,9 @@
-/* Made by tests/measure_sections.c from two CC0 figures; how is said there. */
+/* Made by tests/measure_sections.c from two CC0 figures; how is said there. What the
+ * columns are is said in mannequin_loft.h. */
 #ifndef MANNEQUIN_TABLES_H
 #define MANNEQUIN_TABLES_H
 
-/* A section is a ring of points about an origin: at the angle a, the point lies at the
- * distance sum(cosine[m] cos(m a) + sine[m] sin(m a)) in the direction that a and the
- * cone's angle give in a frame whose axis is +Y, pitched about X and then rolled about
- * Z. The angle runs from the front (+Z) to the wearer's left (+X).
- * Columns: origin x y z, pitch, roll, cone, cosine[0 .. 8], sine[1 .. 8];
- * 0.1 mm and 0.1 mrad. */
-enum { SECTION_ORDER = 8, SECTION_COLUMNS = 23 };
+#include "mannequin_loft.h"
 
 /* clang-format off */
 

@@ -298,8 +298,11 @@ int main(void)
 	const char *fault = body_build_mannequin(&body);
 	if (fault)
 		fprintf(stderr, "%s\n", fault);
+	if (getenv("SHOW"))
+		printf("hash %016llx\n", (unsigned long long)body.hash);
 	CHECK(!fault);
 	if (!fault) {
+		CHECK(body.hash == 0xcf377cb1dd159790); /* the same bits everywhere */
 		check_closed();
 		check_fans();
 		check_symmetry();
