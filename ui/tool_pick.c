@@ -5,7 +5,7 @@
 static const float mark_reach_mm = 3.0f, badge_reach_mm = 5.0f, pin_reach_mm = 4.0f;
 static const float edge_tie_mm = 1.5f; /* nearer than this to each other: the upper piece */
 static const float hidden_m = 0.03f;   /* a pin so far behind the body's surface is hidden */
-static const float ray_max_m = 100.0f;
+static const float sunk_m = 0.004f;    /* cloth may sink so deep between its vertices */
 
 bool pick_edge(const struct ui *ui, const struct session *session, struct v2 position_px,
 	       float reach_mm, struct edge_ref *edge, float *fraction)
@@ -183,22 +183,38 @@ bool pick_body(const struct ui *ui, const struct session *session, struct v2 pos
 	return body_ray(&session->body, origin, direction, hit);
 }
 
-bool pick_worn(const struct ui *ui, const struct session *session, struct v2 position_px,
-	       struct worn_hit *hit)
+/* The ray's triangle of cloth, if the body does not lie before it. */
+static int worn_triangle(const struct ui *ui, const struct session *session, struct v2 position_px,
+			 float weight[3], struct v3 *point_m)
 {
 	struct v3 origin, direction;
 	struct body_hit body;
-	float distance_m = ray_max_m;
+	float distance_m = 0.0f;
+	view_ray(&ui->view, position_px, &origin, &direction);
+	int triangle = cloth_ray(&session->cloth, origin, direction, &distance_m, weight);
+	if (triangle < 0 ||
+	    (pick_body(ui, session, position_px, &body) && body.distance_m < distance_m - sunk_m))
+		return -1;
+	*point_m = v3_mad(origin, direction, distance_m);
+	return triangle;
+}
+
+/* A ray that runs exactly between two triangles may slip through: a second one, a third of a pixel
+ * beside it, does not. */
+bool pick_worn(const struct ui *ui, const struct session *session, struct v2 position_px,
+	       struct worn_hit *hit)
+{
 	if (!session->cloth.worn || session->job != JOB_NONE)
 		return false;
-	view_ray(&ui->view, position_px, &origin, &direction);
-	hit->triangle = cloth_ray(&session->cloth, origin, direction, &distance_m, hit->weight);
-	if (hit->triangle < 0 ||
-	    (pick_body(ui, session, position_px, &body) && body.distance_m < distance_m))
+	hit->triangle = worn_triangle(ui, session, position_px, hit->weight, &hit->point_m);
+	if (hit->triangle < 0) {
+		struct v2 beside = v2_add(position_px, (struct v2){0.31f, 0.17f});
+		hit->triangle = worn_triangle(ui, session, beside, hit->weight, &hit->point_m);
+	}
+	if (hit->triangle < 0)
 		return false;
 	const struct garment *garment = &session->garment;
 	const int *v = garment->triangle[hit->triangle].v;
-	hit->point_m = v3_mad(origin, direction, distance_m);
 	hit->piece = garment->piece[v[0]];
 	hit->local_mm = (struct v2){0.0f, 0.0f};
 	for (int k = 0; k < 3; k++)

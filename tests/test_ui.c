@@ -1,0 +1,636 @@
+/* A visitor's hand on the face: what is drawn, sewn, marked, erased, dragged and pinned, by a
+ * steady hand and by one whose every sample lies up to 2 mm off. The session is the real one. */
+#include "session.h"
+#include "test.h"
+#include "tool.h"
+#include "ui.h"
+
+#include <stdlib.h>
+
+enum { WIDTH = 1280, HEIGHT = 720, SAMPLE_US = 4000, SAMPLES_A_FRAME = 4 };
+
+static const float tremor_mm = 2.0f;
+
+struct hand {
+	struct session *session;
+	struct ui *ui;
+	struct arena arena;
+	struct edit_list sent; /* since the last `watch` */
+	struct frame_input input;
+	int64_t now_us;
+	struct scatter scatter;
+	bool trembles, eraser;
+};
+
+/* ---- the hand ---- */
+
+static void frame(struct hand *hand)
+{
+	static struct edit_list edits;
+	edits.count = 0;
+	ui_update(hand->ui, &hand->input, hand->session, &edits);
+	for (int i = 0; i < edits.count; i++) {
+		if (hand->sent.count < FRAME_EDITS_MAX)
+			hand->sent.item[hand->sent.count++] = edits.item[i];
+		session_apply(hand->session, &edits.item[i]);
+	}
+	hand->input.sample_count = 0;
+	hand->input.buttons_pressed = 0;
+}
+
+static void watch(struct hand *hand)
+{
+	hand->sent.count = 0;
+}
+
+static int sent(const struct hand *hand, enum edit_kind kind)
+{
+	int count = 0;
+	for (int i = 0; i < hand->sent.count; i++)
+		count += hand->sent.item[i].kind == kind;
+	return count;
+}
+
+static const struct edit *last(const struct hand *hand, enum edit_kind kind)
+{
+	static const struct edit nothing = {.kind = EDIT_KIND_COUNT};
+	for (int i = hand->sent.count - 1; i >= 0; i--)
+		if (hand->sent.item[i].kind == kind)
+			return &hand->sent.item[i];
+	return &nothing;
+}
+
+/* A unit disc's point, evenly. */
+static struct v2 scattered(struct scatter *scatter)
+{
+	for (int i = 0; i < 100; i++) {
+		struct v2 p = {(float)scatter_below(scatter, 2001) * 0.001f - 1.0f,
+			       (float)scatter_below(scatter, 2001) * 0.001f - 1.0f};
+		if (v2_dot(p, p) <= 1.0f)
+			return p;
+	}
+	return (struct v2){0, 0};
+}
+
+static void sample(struct hand *hand, enum pen_state state, struct v2 at)
+{
+	if (hand->trembles)
+		at = v2_add(at, v2_scale(scattered(&hand->scatter), tool_px(hand->ui, tremor_mm)));
+	hand->now_us += SAMPLE_US;
+	hand->input.sample[hand->input.sample_count++] = (struct pen_sample){
+		.state = state,
+		.time_us = hand->now_us,
+		.position_px = at,
+		.pressure = state == PEN_TOUCH ? 0.5f : 0.0f,
+		.eraser = hand->eraser,
+	};
+	if (hand->input.sample_count == SAMPLES_A_FRAME)
+		frame(hand);
+}
+
+static void lift(struct hand *hand, struct v2 at)
+{
+	for (int i = 0; i < SAMPLES_A_FRAME; i++)
+		sample(hand, PEN_HOVER, at);
+	frame(hand);
+	frame(hand);
+}
+
+/* At 160 mm/s of the screen, slower at both ends, as hands do. */
+static void stroke(struct hand *hand, const struct v2 *corner, int count)
+{
+	float length = stroke_length(corner, count), along = 0.0f;
+	int steps = (int)(length / tool_px(hand->ui, 160.0f) * 1e6f / (float)SAMPLE_US) + 24;
+	float step = length / (float)(steps - 23);
+	for (int i = 0; i < 12; i++)
+		sample(hand, PEN_TOUCH, corner[0]);
+	for (int k = 1; k < count; k++) {
+		float edge = v2_distance(corner[k - 1], corner[k]);
+		for (; along < edge; along += step)
+			sample(hand, PEN_TOUCH,
+			       v2_lerp(corner[k - 1], corner[k], edge > 0 ? along / edge : 0));
+		along -= edge;
+	}
+	for (int i = 0; i < 12; i++)
+		sample(hand, PEN_TOUCH, corner[count - 1]);
+	lift(hand, corner[count - 1]);
+}
+
+static void line(struct hand *hand, struct v2 from, struct v2 to)
+{
+	struct v2 corner[2] = {from, to};
+	stroke(hand, corner, 2);
+}
+
+static void tap(struct hand *hand, struct v2 at)
+{
+	for (int i = 0; i < 22; i++)
+		sample(hand, PEN_TOUCH, at);
+	lift(hand, at);
+}
+
+static struct v2 middle(struct rect rect)
+{
+	return (struct v2){(float)rect.x + 0.5f * (float)rect.w,
+			   (float)rect.y + 0.5f * (float)rect.h};
+}
+
+static void press(struct hand *hand, enum target target)
+{
+	CHECK(hand->ui->layout.target[target].w > 0);
+	tap(hand, middle(hand->ui->layout.target[target]));
+}
+
+static struct v2 paper(const struct hand *hand, float x_mm, float y_mm)
+{
+	return view_sheet_px(&hand->ui->view, (struct v2){x_mm, y_mm});
+}
+
+static struct v2 figure(const struct hand *hand, struct v3 point_m)
+{
+	struct v2 px = {0, 0};
+	float depth;
+	CHECK(view_project(&hand->ui->view, point_m, &px, &depth));
+	return px;
+}
+
+/* ---- step 1 ---- */
+
+static const struct piece *piece_at(const struct hand *hand, int piece)
+{
+	return &hand->session->document.pattern.piece[piece];
+}
+
+static void draw_box(struct hand *hand, float x_mm, float y_mm, float w_mm, float h_mm)
+{
+	struct v2 corner[6] = {paper(hand, x_mm + 0.4f * w_mm, y_mm),
+			       paper(hand, x_mm + w_mm, y_mm),
+			       paper(hand, x_mm + w_mm, y_mm + h_mm),
+			       paper(hand, x_mm, y_mm + h_mm),
+			       paper(hand, x_mm, y_mm),
+			       paper(hand, x_mm + 0.38f * w_mm, y_mm)};
+	stroke(hand, corner, 6);
+}
+
+static void check_drawing(struct hand *hand)
+{
+	struct v2 low, high, new_low, new_high;
+	watch(hand);
+	draw_box(hand, -700, -300, 480, 620);
+	CHECK(sent(hand, EDIT_PIECE) == 1 && hand->sent.count == 1);
+	CHECK(hand->ui->piece == 0 && piece_at(hand, 0)->used);
+	piece_bounds(piece_at(hand, 0), &low, &high);
+	CHECK_NEAR(low.x, -700, 14);
+	CHECK_NEAR(low.y, -300, 14);
+	CHECK_NEAR(high.x, -220, 14);
+	CHECK_NEAR(high.y, 320, 14);
+	CHECK(piece_edge_count(piece_at(hand, 0)) == 4);
+
+	/* A tap beside it lets go of it, a tap on it takes it, neither changes it. */
+	watch(hand);
+	tap(hand, paper(hand, 200, 0));
+	CHECK(hand->ui->piece == -1);
+	tap(hand, paper(hand, -460, 0));
+	CHECK(hand->ui->piece == 0 && hand->sent.count == 0);
+
+	/* Dragged from within it moves as far as the pen. */
+	line(hand, paper(hand, -460, 0), paper(hand, -420, -100));
+	CHECK(sent(hand, EDIT_PLACE) == 1 && hand->sent.count == 1);
+	piece_bounds(piece_at(hand, 0), &new_low, &new_high);
+	CHECK_NEAR(new_low.x - low.x, 40, 12);
+	CHECK_NEAR(new_low.y - low.y, -100, 12);
+}
+
+static void check_buttons_of_pieces(struct hand *hand)
+{
+	struct v2 low, high, low2, high2;
+	watch(hand);
+	press(hand, TARGET_COPY);
+	CHECK(sent(hand, EDIT_COPY) == 1 && hand->ui->piece == 1);
+	piece_bounds(piece_at(hand, 0), &low, &high);
+	piece_bounds(piece_at(hand, 1), &low2, &high2);
+	CHECK(low2.x > high.x || high2.x < low.x || low2.y > high.y || high2.y < low.y);
+	CHECK(rect_holds(hand->ui->layout.right, view_sheet_px(&hand->ui->view, low2)));
+	CHECK(rect_holds(hand->ui->layout.right, view_sheet_px(&hand->ui->view, high2)));
+
+	press(hand, TARGET_TURN_OVER);
+	CHECK(sent(hand, EDIT_PLACE) == 1 && piece_at(hand, 1)->inside_up);
+	piece_bounds(piece_at(hand, 1), &low, &high);
+	CHECK_NEAR(low.x, low2.x, 0.1);
+	CHECK_NEAR(high.x, high2.x, 0.1);
+
+	press(hand, (enum target)(TARGET_SWATCH_0 + 3));
+	CHECK(piece_at(hand, 1)->swatch == 3 && piece_at(hand, 0)->swatch == 0);
+	press(hand, TARGET_MIRROR);
+	CHECK(sent(hand, EDIT_MIRROR) == 1);
+	press(hand, TARGET_DELETE);
+	CHECK(sent(hand, EDIT_DELETE) == 1 && hand->ui->piece == -1 && !piece_at(hand, 1)->used);
+	watch(hand);
+	press(hand, TARGET_DELETE);
+	CHECK(hand->sent.count == 0 && hand->ui->notice == TEXT_NO_PIECE);
+	press(hand, TARGET_UNDO);
+	CHECK(sent(hand, EDIT_UNDO) == 1 && piece_at(hand, 1)->used);
+	press(hand, TARGET_REDO);
+	CHECK(sent(hand, EDIT_REDO) == 1 && !piece_at(hand, 1)->used);
+
+	/* A scribble is no piece, and says why. */
+	watch(hand);
+	line(hand, paper(hand, 300, 300), paper(hand, 330, 290));
+	CHECK(hand->sent.count == 0 && hand->ui->notice != TEXT_NONE);
+}
+
+/* ---- step 2 ---- */
+
+/* The middle of the edge whose middle lies farthest to one side of a piece, on the screen. */
+static struct v2 edge_towards(const struct hand *hand, int piece, struct v2 way, int *edge)
+{
+	float best = -1e9f;
+	struct v2 at = {0, 0};
+	for (int e = 0; e < piece_edge_count(piece_at(hand, piece)); e++) {
+		struct v2 p = piece_to_sheet(piece_at(hand, piece),
+					     piece_edge_point(piece_at(hand, piece), e, 0.5f));
+		if (v2_dot(p, way) <= best)
+			continue;
+		best = v2_dot(p, way);
+		at = view_sheet_px(&hand->ui->view, p);
+		*edge = e;
+	}
+	return at;
+}
+
+static void check_sewing(struct hand *hand)
+{
+	int right, left;
+	draw_box(hand, 100, -350, 480, 620);
+	CHECK(hand->ui->piece == 1);
+	press(hand, TARGET_STEP_SEW);
+	CHECK(hand->ui->step == STEP_SEW);
+	watch(hand);
+	struct v2 to = edge_towards(hand, 1, (struct v2){-1, 0}, &left);
+	struct v2 from = edge_towards(hand, 0, (struct v2){1, 0}, &right);
+	line(hand, from, to);
+	const struct edit *sew = last(hand, EDIT_SEW);
+	CHECK(hand->sent.count == 1 && sew->i[0] == 0 && sew->i[1] == right && sew->i[2] == 1 &&
+	      sew->i[3] == left && sew->i[4] == 0);
+	CHECK(hand->ui->seam == 0);
+
+	press(hand, TARGET_SWAP);
+	CHECK(hand->session->document.pattern.seam[0].swapped && hand->ui->seam == 0);
+	tap(hand, paper(hand, 340, 0));
+	CHECK(hand->ui->seam == -1);
+	tap(hand, seam_badge_px(hand->ui, &hand->session->document.pattern,
+				&hand->session->document.pattern.seam[0], 1));
+	CHECK(hand->ui->seam == 0);
+
+	/* Sewn anew, the old seam goes. */
+	watch(hand);
+	int top;
+	line(hand, from, edge_towards(hand, 1, (struct v2){0, 1}, &top));
+	CHECK(sent(hand, EDIT_UNSEW) == 1 && sent(hand, EDIT_SEW) == 1);
+	CHECK(hand->session->document.pattern.seam[0].b.edge == top);
+	press(hand, TARGET_DELETE);
+	CHECK(!hand->session->document.pattern.seam[0].used);
+
+	watch(hand);
+	line(hand, from, paper(hand, 340, 0));
+	CHECK(hand->sent.count == 0 && hand->ui->notice == TEXT_SELF_SEAM);
+
+	/* The left pane turns the figure, and nothing else. */
+	struct v3 axis = hand->ui->view.turn.row[2];
+	struct v2 room = middle(hand->ui->layout.left);
+	line(hand, room, v2_add(room, (struct v2){120, 10}));
+	CHECK(hand->sent.count == 0 && v3_distance(axis, hand->ui->view.turn.row[2]) > 0.1f);
+	press(hand, TARGET_VIEW_FRONT);
+	CHECK(v3_distance(axis, hand->ui->view.turn.row[2]) < 1e-6f);
+}
+
+/* ---- step 3 ---- */
+
+/* How far a mark's points lie off the segment a b, at most. */
+static float straying(const struct edit *edit, struct v2 a, struct v2 b)
+{
+	struct v2 segment[2] = {a, b};
+	float worst = 0.0f;
+	for (int i = 0; i < edit->point_count; i++)
+		worst = float_max(worst,
+				  stroke_distance(segment, 2,
+						  (struct v2){edit->point[i].x, edit->point[i].y}));
+	return worst;
+}
+
+static void check_cloth_marks(struct hand *hand)
+{
+	struct v2 a = {-430, 100}, b = {-430, -250};
+	press(hand, TARGET_STEP_MARK);
+	watch(hand);
+	line(hand, paper(hand, a.x, a.y), paper(hand, b.x, b.y));
+	const struct edit *mark = last(hand, EDIT_MARK_CLOTH);
+	CHECK(hand->sent.count == 1 && mark->i[0] == 1 && mark->i[1] == 0);
+	CHECK(mark->point_count >= 20 && mark->point_count <= MARK_POINTS_MAX);
+	struct v2 local_a = piece_from_sheet(piece_at(hand, 0), a);
+	struct v2 local_b = piece_from_sheet(piece_at(hand, 0), b);
+	/* 2 mm on the screen are 16 mm of cloth. */
+	CHECK(straying(mark, local_a, local_b) < (hand->trembles ? 9.0f : 0.5f));
+	struct v2 first = {mark->point[0].x, mark->point[0].y};
+	CHECK(v2_distance(first, local_a) < (hand->trembles ? 12.0f : 6.0f));
+
+	/* The next one has the next number; what leaves the cloth is cut off. */
+	line(hand, paper(hand, 340, 100), paper(hand, 340, -700));
+	mark = last(hand, EDIT_MARK_CLOTH);
+	CHECK(mark->i[0] == 2 && mark->i[1] == 1);
+	for (int i = 0; i < mark->point_count; i++)
+		CHECK(piece_contains(piece_at(hand, 1),
+				     (struct v2){mark->point[i].x, mark->point[i].y}));
+
+	watch(hand);
+	line(hand, paper(hand, -100, 600), paper(hand, 300, 600));
+	CHECK(hand->sent.count == 0 && hand->ui->notice == TEXT_OFF_CLOTH);
+}
+
+static void check_laser_on_stack(struct hand *hand)
+{
+	struct edit place = {.kind = EDIT_PLACE, .i = {1, 0}};
+	struct v2 home = piece_at(hand, 1)->position_mm;
+	place.f[0] = piece_at(hand, 0)->position_mm.x;
+	place.f[1] = piece_at(hand, 0)->position_mm.y;
+	CHECK(session_apply(hand->session, &place));
+	press(hand, TARGET_LASER);
+	watch(hand);
+	line(hand, paper(hand, -500, 50), paper(hand, -500, -200));
+	CHECK(sent(hand, EDIT_MARK_CLOTH) == 2);
+	CHECK(hand->sent.item[0].i[0] == 3 && hand->sent.item[0].i[1] == 1);
+	CHECK(hand->sent.item[1].i[0] == 4 && hand->sent.item[1].i[1] == 0);
+	press(hand, TARGET_LASER);
+	place.f[0] = home.x;
+	place.f[1] = home.y;
+	CHECK(session_apply(hand->session, &place));
+}
+
+static void check_body_marks(struct hand *hand)
+{
+	struct v2 from = figure(hand, (struct v3){0, 1.3f, 0.1f});
+	struct v2 to = figure(hand, (struct v3){0, 1.0f, 0.1f});
+	watch(hand);
+	line(hand, from, to);
+	const struct edit *mark = last(hand, EDIT_MARK_BODY);
+	CHECK(hand->sent.count == 1 && mark->i[0] == 1 && mark->point_count >= 20);
+	for (int i = 0; i < mark->point_count; i++) {
+		struct body_hit hit;
+		body_nearest(&hand->session->body, mark->point[i], 0, &hit);
+		CHECK(float_abs(hit.distance_m) < 0.004f && mark->point[i].z > 0.0f);
+		CHECK(float_abs(mark->point[i].x) < (hand->trembles ? 0.012f : 0.002f));
+	}
+
+	press(hand, TARGET_LASER);
+	watch(hand);
+	line(hand, v2_add(from, (struct v2){14, 0}), v2_add(to, (struct v2){14, 0}));
+	CHECK(sent(hand, EDIT_MARK_BODY) == 2);
+	CHECK(hand->sent.item[0].i[0] == 2 && hand->sent.item[1].i[0] == 3);
+	CHECK(hand->sent.item[0].point[9].z > hand->sent.item[1].point[9].z + 0.05f);
+	press(hand, TARGET_LASER);
+
+	/* Beside the body the figure turns. */
+	watch(hand);
+	struct v3 axis = hand->ui->view.turn.row[2];
+	struct v2 room = {(float)hand->ui->layout.left.w - 60.0f, 400.0f};
+	line(hand, room, v2_add(room, (struct v2){0, 80}));
+	CHECK(hand->sent.count == 0 && v3_distance(axis, hand->ui->view.turn.row[2]) > 0.05f);
+	press(hand, TARGET_VIEW_FRONT);
+}
+
+static bool has_mark(const struct hand *hand, int side, int number)
+{
+	const struct marks *marks = &hand->session->document.marks;
+	for (int m = 0; m < MARKS_MAX; m++)
+		if (side == 0 ? marks->cloth[m].used && marks->cloth[m].number == number
+			      : marks->body[m].used && marks->body[m].number == number)
+			return true;
+	return false;
+}
+
+static void check_erasing(struct hand *hand)
+{
+	press(hand, TARGET_ERASE);
+	CHECK(hand->ui->erase);
+	watch(hand);
+	tap(hand, paper(hand, 340, -100)); /* on the line of 2 */
+	CHECK(sent(hand, EDIT_UNMARK) == 1 && !has_mark(hand, 0, 2));
+	tap(hand, figure(hand, hand->session->document.marks.body[1].point_m[0])); /* on number 2 */
+	CHECK(!has_mark(hand, 1, 2) && has_mark(hand, 1, 1) && has_mark(hand, 1, 3));
+	watch(hand);
+	tap(hand, paper(hand, -100, 600));
+	CHECK(hand->sent.count == 0);
+	press(hand, TARGET_ERASE);
+	hand->eraser = true; /* the other end of the pen: a stroke takes what it crosses */
+	line(hand, paper(hand, -560, -100), paper(hand, -465, -100));
+	hand->eraser = false;
+	CHECK(!has_mark(hand, 0, 4) && has_mark(hand, 0, 1) && has_mark(hand, 0, 3));
+	line(hand, paper(hand, 340, 100), paper(hand, 340, -200));
+	CHECK(has_mark(hand, 0, 2)); /* the lowest free number is used again */
+}
+
+/* ---- buttons ---- */
+
+static void check_twins(struct hand *hand)
+{
+	watch(hand);
+	press(hand, TARGET_RELAX);
+	CHECK(hand->sent.count == 0 && hand->ui->notice == TEXT_NOT_WORN);
+	hand->ui->language = LANGUAGE_BOTH;
+	press(hand, TARGET_LANGUAGE);
+	CHECK(hand->ui->language == LANGUAGE_JAPANESE);
+	press(hand, TARGET_HAND);
+	CHECK(hand->ui->left_handed);
+	press(hand, TARGET_HAND);
+
+	/* CLEAR wants a second. */
+	watch(hand);
+	press(hand, TARGET_CLEAR);
+	CHECK(hand->sent.count == 0);
+	CHECK(ui_useful(hand->ui, hand->session, TARGET_WRAP));
+	press(hand, TARGET_STEP_DRAW);
+	CHECK(hand->ui->step == STEP_DRAW);
+}
+
+/* A press of a real button for one frame. */
+static void push_button(struct hand *hand, enum button button, bool hold)
+{
+	hand->input.buttons_pressed = (uint8_t)(1u << button);
+	hand->input.buttons_held = hold ? hand->input.buttons_pressed : 0;
+	frame(hand);
+}
+
+static void check_clear(struct hand *hand)
+{
+	struct v2 at = middle(hand->ui->layout.target[TARGET_CLEAR]);
+	watch(hand);
+	for (int i = 0; i < 300; i++)
+		sample(hand, PEN_TOUCH, at);
+	lift(hand, at);
+	CHECK(sent(hand, EDIT_CLEAR) == 1 && hand->ui->step == STEP_DRAW && hand->ui->piece == -1);
+	CHECK(!ui_useful(hand->ui, hand->session, TARGET_CLEAR));
+	watch(hand);
+	push_button(hand, BUTTON_WRAP, false);
+	frame(hand);
+	CHECK(hand->sent.count == 0 && hand->ui->notice == TEXT_NO_PAIR);
+	CHECK(hand->ui->step == STEP_DRAW);
+}
+
+/* ---- steps 4 and 5, on a sheet of cloth that hangs before the chest ---- */
+
+static void wear_sheet(struct hand *hand)
+{
+	enum { SIDE = 9 };
+	struct session *session = hand->session;
+	struct garment *garment = &session->garment;
+	struct cloth *cloth = &session->cloth;
+	garment->vertex_count = SIDE * SIDE;
+	garment->triangle_count = 0;
+	garment->pair_count = 0;
+	for (int i = 0; i < SIDE * SIDE; i++) {
+		garment->rest_m[i] = (struct v2){0.02f * (float)(i % SIDE),
+						 0.04f * (float)(i / SIDE)};
+		garment->piece[i] = 0;
+		garment->weld[i] = i;
+	}
+	for (int y = 0; y + 1 < SIDE; y++)
+		for (int x = 0; x + 1 < SIDE; x++) {
+			int a = y * SIDE + x, t = garment->triangle_count;
+			garment->triangle[t] = (struct triangle){{a, a + 1, a + SIDE}};
+			garment->triangle[t + 1] = (struct triangle){
+				{a + 1, a + SIDE + 1, a + SIDE}};
+			garment->triangle_piece[t] = garment->triangle_piece[t + 1] = 0;
+			garment->triangle_count += 2;
+		}
+	for (int p = 0; p <= PIECES_MAX; p++) {
+		garment->piece_first[p] = p == 0 ? 0 : garment->vertex_count;
+		garment->piece_first_triangle[p] = p == 0 ? 0 : garment->triangle_count;
+	}
+	garment->edge_m = 0.04f;
+	cloth_reset(cloth, garment, &session->body);
+	for (int i = 0; i < SIDE * SIDE; i++) {
+		struct body_hit hit;
+		struct v3 far = {garment->rest_m[i].x - 0.08f, 1.0f + garment->rest_m[i].y, 0.4f};
+		CHECK(body_ray(&session->body, far, (struct v3){0, 0, -1}, &hit));
+		cloth->position_m[i] = v3_mad(hit.point_m, hit.normal, 0.006f);
+		cloth->previous_m[i] = cloth->position_m[i];
+		cloth->placed[i] = 1;
+	}
+	cloth->worn = true;
+}
+
+static void check_adjusting(struct hand *hand)
+{
+	struct session *session = hand->session;
+	draw_box(hand, -700, -300, 320, 400);
+	wear_sheet(hand);
+	frame(hand);
+	struct v3 grip = session->cloth.position_m[40];
+	struct v2 from = figure(hand, grip);
+	press(hand, TARGET_STEP_DRESS);
+	watch(hand);
+	tap(hand, from); /* without pin mode a tap does nothing */
+	CHECK(hand->sent.count == 0);
+	line(hand, from, v2_add(from, (struct v2){0, -60}));
+	const struct edit *grab = last(hand, EDIT_GRAB);
+	CHECK(sent(hand, EDIT_GRAB) == 1 && hand->ui->step == STEP_ADJUST);
+	CHECK(grab->i[0] == 0);
+	CHECK_NEAR(grab->f[0], 80, hand->trembles ? 16 : 4);
+	CHECK_NEAR(grab->f[1], 160, hand->trembles ? 16 : 4);
+	CHECK(sent(hand, EDIT_DRAG) > 5);
+	CHECK(session->drag_target_m.y > grip.y + 0.05f);
+	CHECK(!session->drag.active);
+
+	watch(hand);
+	wear_sheet(hand);
+	tap(hand, from);
+	CHECK(hand->sent.count == 0);
+	press(hand, TARGET_PIN);
+	CHECK(hand->ui->pin_mode);
+	tap(hand, from);
+	CHECK(sent(hand, EDIT_PIN) == 1 && session->document.pin[0].used);
+	tap(hand, from);
+	CHECK(sent(hand, EDIT_UNPIN) == 1 && !session->document.pin[0].used);
+	press(hand, TARGET_PIN);
+	CHECK(!hand->ui->pin_mode);
+
+	/* The real button pins what the pen points at, and is pin mode while it is held. */
+	watch(hand);
+	lift(hand, from);
+	push_button(hand, BUTTON_PIN, true);
+	CHECK(sent(hand, EDIT_PIN) == 1 && hand->ui->pin_mode);
+	hand->input.buttons_held = 0;
+	frame(hand);
+	CHECK(!hand->ui->pin_mode);
+
+	/* RELAX lasts as long as it is held, by the button or by the twin. */
+	watch(hand);
+	push_button(hand, BUTTON_RELAX, true);
+	frame(hand);
+	CHECK(session->relaxing && sent(hand, EDIT_RELAX) == 1);
+	hand->input.buttons_held = 0;
+	frame(hand);
+	CHECK(!session->relaxing && sent(hand, EDIT_RELAX) == 2);
+	press(hand, TARGET_RELAX);
+	CHECK(!session->relaxing && sent(hand, EDIT_RELAX) == 4);
+}
+
+/* A line on the worn cloth belongs to the cloth (S9); the other end of the pen takes it off. */
+static void check_worn_mark(struct hand *hand)
+{
+	struct session *session = hand->session;
+	wear_sheet(hand);
+	ui_step(hand->ui, STEP_MARK);
+	watch(hand);
+	struct v2 from = figure(hand, session->cloth.position_m[20]);
+	struct v2 to = figure(hand, session->cloth.position_m[56]);
+	line(hand, from, to);
+	const struct edit *mark = last(hand, EDIT_MARK_CLOTH);
+	CHECK(hand->sent.count == 1 && mark->i[1] == 0 && mark->point_count >= 10);
+	CHECK(straying(mark, (struct v2){40, 80}, (struct v2){40, 240}) <
+	      (hand->trembles ? 12.0f : 3.0f));
+	hand->eraser = true;
+	tap(hand, figure(hand, session->cloth.position_m[38]));
+	hand->eraser = false;
+	CHECK(sent(hand, EDIT_UNMARK) == 1);
+}
+
+static void visit(struct hand *hand, unsigned seed)
+{
+	ui_init(hand->ui, WIDTH, HEIGHT);
+	hand->trembles = seed > 0;
+	hand->scatter.state = seed * 2654435761u + 1u;
+	int failures = test_failures;
+	check_drawing(hand);
+	check_buttons_of_pieces(hand);
+	check_sewing(hand);
+	check_cloth_marks(hand);
+	check_laser_on_stack(hand);
+	check_body_marks(hand);
+	check_erasing(hand);
+	check_twins(hand);
+	check_clear(hand);
+	check_adjusting(hand);
+	check_worn_mark(hand);
+	check_clear(hand);
+	if (test_failures > failures)
+		fprintf(stderr, "with the hand of seed %u\n", seed);
+}
+
+int main(void)
+{
+	struct hand *hand = calloc(1, sizeof *hand);
+	void *memory = malloc(KIOSK_MEMORY_BYTES);
+	hand->ui = calloc(1, sizeof *hand->ui);
+	hand->session = calloc(1, sizeof *hand->session);
+	arena_init(&hand->arena, memory, KIOSK_MEMORY_BYTES);
+	session_init(hand->session, &hand->arena);
+	CHECK(!body_build_mannequin(&hand->session->body));
+	for (unsigned seed = 0; seed <= 6; seed++)
+		visit(hand, seed);
+	free(memory);
+	free(hand->session);
+	free(hand->ui);
+	free(hand);
+	return test_end();
+}
