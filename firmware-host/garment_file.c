@@ -99,10 +99,14 @@ bool garment_write(const struct session *session, const char *obj_path, const ch
 		return false;
 	}
 	bool written = true;
-	if (obj_path)
-		written = write_file(format_obj_write(&mesh, title, &size), size, obj_path, fault);
-	if (written && glb_path)
-		written = write_file(format_glb_write(&mesh, title, &size), size, glb_path, fault);
+	if (obj_path) {
+		char *text = format_obj_write(&mesh, title, &size);
+		written = write_file(text, size, obj_path, fault);
+	}
+	if (written && glb_path) {
+		uint8_t *bytes = format_glb_write(&mesh, title, &size);
+		written = write_file(bytes, size, glb_path, fault);
+	}
 	mesh_free(&mesh);
 	return written;
 }
