@@ -1,5 +1,5 @@
 /* The reading thread: a SEQPACKET socket stands for a hidraw node, for it keeps reports apart. */
-#include "pen_live.h"
+#include "live.h"
 #include "test.h"
 
 #include <fcntl.h>
@@ -18,13 +18,13 @@ static struct tape_device mouse(void)
 }
 
 /* Collects until something came, at most two seconds. */
-static struct live_changes collect(struct pen_live *live)
+static struct live_changes collect(struct live *live)
 {
 	struct live_changes changes = {0};
 	reports.count = 0;
 	for (int i = 0; i < 400 && !reports.count && !changes.plugged && !changes.unplugged; i++) {
 		nanosleep(&(struct timespec){0, 5000000}, NULL);
-		changes = pen_live_collect(live, &reports);
+		changes = live_collect(live, &reports);
 	}
 	return changes;
 }
@@ -35,21 +35,21 @@ static void put(int fd, uint8_t first, int size)
 	CHECK(write(fd, bytes, (size_t)size) == size);
 }
 
-static void check_one_life(struct pen_live *live)
+static void check_one_life(struct live *live)
 {
 	int fds[2];
 	struct tape_device told = mouse(), back;
 	CHECK(socketpair(AF_UNIX, SOCK_SEQPACKET, 0, fds) == 0);
-	CHECK(pen_live_attach(live, fds[0], "port 1", &told) == 0);
+	CHECK(live_attach(live, fds[0], "port 1", &told) == 0);
 	struct live_changes changes = collect(live);
 	CHECK(changes.plugged == 1 && changes.unplugged == 0);
-	pen_live_device(live, 0, &back);
+	live_device(live, 0, &back);
 	CHECK(!strcmp(back.name, "a pen") && back.descriptor_size == mouse_descriptor_size);
 
 	put(fds[1], 0x04, 7);
 	changes = collect(live);
 	CHECK(reports.count == 1 && reports.report[0].bytes[0] == 4 && reports.report[0].size == 7);
-	int64_t age_us = pen_live_clock_us() - reports.report[0].time_us;
+	int64_t age_us = live_clock_us() - reports.report[0].time_us;
 	CHECK(age_us >= 0 && age_us < 3000000);
 
 	put(fds[1], 0x05, 3); /* too short for a pen's report: dropped */
@@ -64,14 +64,14 @@ static void check_one_life(struct pen_live *live)
 }
 
 /* A place gets its number back, another one gets another. */
-static void check_numbers(struct pen_live *live)
+static void check_numbers(struct live *live)
 {
 	int first[2], second[2];
 	struct tape_device told = mouse();
 	CHECK(socketpair(AF_UNIX, SOCK_SEQPACKET, 0, first) == 0);
 	CHECK(socketpair(AF_UNIX, SOCK_SEQPACKET, 0, second) == 0);
-	CHECK(pen_live_attach(live, second[0], "port 2", &told) == 1);
-	CHECK(pen_live_attach(live, first[0], "port 1", &told) == 0);
+	CHECK(live_attach(live, second[0], "port 2", &told) == 1);
+	CHECK(live_attach(live, first[0], "port 1", &told) == 0);
 	unsigned plugged = collect(live).plugged;
 	plugged |= plugged == 3 ? 0 : collect(live).plugged;
 	CHECK(plugged == 3);
@@ -85,15 +85,15 @@ static void check_numbers(struct pen_live *live)
 }
 
 /* A frame takes each device through plugged, reports, unplugged once; the rest waits. */
-static void check_order(struct pen_live *live)
+static void check_order(struct live *live)
 {
 	struct tape_device told = mouse();
 	uint8_t byte = 1;
-	pen_live_plug(live, LIVE_BUTTONS, &told);
-	pen_live_push(live, LIVE_BUTTONS, 10, 1, &byte);
-	pen_live_unplug(live, LIVE_BUTTONS);
-	pen_live_plug(live, LIVE_BUTTONS, &told);
-	pen_live_push(live, LIVE_BUTTONS, 20, 1, &byte);
+	live_plug(live, LIVE_BUTTONS, &told);
+	live_push(live, LIVE_BUTTONS, 10, 1, &byte);
+	live_unplug(live, LIVE_BUTTONS);
+	live_plug(live, LIVE_BUTTONS, &told);
+	live_push(live, LIVE_BUTTONS, 20, 1, &byte);
 	struct live_changes changes = collect(live);
 	CHECK(changes.plugged == 1 << LIVE_BUTTONS && changes.unplugged == 1 << LIVE_BUTTONS);
 	CHECK(reports.count == 1 && reports.report[0].time_us == 10);
@@ -103,17 +103,17 @@ static void check_order(struct pen_live *live)
 }
 
 /* A render loop that stalls loses nothing for two seconds, and then the newest. */
-static void check_flood(struct pen_live *live)
+static void check_flood(struct live *live)
 {
-	long lost = pen_live_lost(live);
+	long lost = live_lost(live);
 	for (int i = 0; i < 3000; i++) {
 		uint8_t byte = (uint8_t)(i & 7);
-		pen_live_push(live, LIVE_BUTTONS, i, 1, &byte);
+		live_push(live, LIVE_BUTTONS, i, 1, &byte);
 	}
 	int taken = 0;
 	for (;;) {
 		reports.count = 0;
-		pen_live_collect(live, &reports);
+		live_collect(live, &reports);
 		for (int i = 0; i < reports.count; i++)
 			CHECK(reports.report[i].time_us == taken + i);
 		taken += reports.count;
@@ -121,7 +121,7 @@ static void check_flood(struct pen_live *live)
 		if (!reports.count)
 			break;
 	}
-	CHECK(taken >= 1000 && pen_live_lost(live) - lost == 3000 - taken);
+	CHECK(taken >= 1000 && live_lost(live) - lost == 3000 - taken);
 }
 
 static int fds_open(void)
@@ -139,7 +139,7 @@ int main(void)
 	nothing.tablet_vendor = 0xffff; /* leave this machine's own tablets alone */
 	int before = fds_open();
 	for (int i = 0; i < 3; i++) {
-		struct pen_live *live = pen_live_open(&nothing, 0);
+		struct live *live = live_open(&nothing, 0);
 		CHECK(live != NULL);
 		if (!live)
 			return test_end();
@@ -147,9 +147,9 @@ int main(void)
 		check_numbers(live);
 		check_order(live);
 		check_flood(live);
-		pen_live_text(live, text);
+		live_text(live, text);
 		CHECK(text[0] != 0);
-		pen_live_close(live);
+		live_close(live);
 	}
 	CHECK(fds_open() == before);
 	return test_end();

@@ -1,10 +1,10 @@
-/* The thread that reads tablets, and the queue between it and the frame loop; see pen_live.h.
+/* The thread that reads tablets, and the queue between it and the frame loop; see live.h.
  *
  * One thread polls all open tablets: hidraw keeps 64 reports (128 ms at 500 Hz) and drops the
  * newest when nobody reads, so reading must not wait for a frame. udev tells of new nodes after its
  * rules have set their permissions; where there is no udev, and for a permission that is mended
  * later, the thread looks again every second. */
-#include "pen_live.h"
+#include "live.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -33,14 +33,14 @@ struct tablet {
 	struct pen_layout layout[PEN_REPORTS_MAX];
 };
 
-struct pen_live {
+struct live {
 	pthread_t thread;
 	int wake[2]; /* a byte stops the thread */
 	int64_t start_us;
 	struct board board;
 	struct udev *udev;
 	struct udev_monitor *monitor;
-	struct pen_node *nodes; /* the thread's */
+	struct live_node *nodes; /* the thread's */
 
 	pthread_mutex_t lock; /* for all below */
 	struct tablet tablet[LIVE_TABLETS_MAX];
@@ -51,7 +51,7 @@ struct pen_live {
 	struct raw_report queue[QUEUE_MAX];
 };
 
-int64_t pen_live_clock_us(void)
+int64_t live_clock_us(void)
 {
 	struct timespec now;
 	clock_gettime(CLOCK_MONOTONIC, &now);
@@ -60,7 +60,7 @@ int64_t pen_live_clock_us(void)
 
 /* --- queue ------------------------------------------------------------------------------------ */
 
-static void queue_add(struct pen_live *live, int device, int64_t time_us, int size,
+static void queue_add(struct live *live, int device, int64_t time_us, int size,
 		      const uint8_t *bytes)
 {
 	int room = size > 0 ? QUEUE_MAX - QUEUE_RESERVE : QUEUE_MAX;
@@ -76,8 +76,7 @@ static void queue_add(struct pen_live *live, int device, int64_t time_us, int si
 		memcpy(report->bytes, bytes, (size_t)size);
 }
 
-void pen_live_push(struct pen_live *live, int device, int64_t time_us, int size,
-		   const uint8_t *bytes)
+void live_push(struct live *live, int device, int64_t time_us, int size, const uint8_t *bytes)
 {
 	MUST(device >= 0 && device < PEN_DEVICES_MAX && size > 0 && size <= REPORT_BYTES_MAX);
 	pthread_mutex_lock(&live->lock);
@@ -85,23 +84,23 @@ void pen_live_push(struct pen_live *live, int device, int64_t time_us, int size,
 	pthread_mutex_unlock(&live->lock);
 }
 
-void pen_live_plug(struct pen_live *live, int device, const struct tape_device *told)
+void live_plug(struct live *live, int device, const struct tape_device *told)
 {
 	MUST(device >= 0 && device < PEN_DEVICES_MAX);
 	pthread_mutex_lock(&live->lock);
 	live->told[device] = *told;
-	queue_add(live, device, pen_live_clock_us() - live->start_us, SIZE_PLUGGED, NULL);
+	queue_add(live, device, live_clock_us() - live->start_us, SIZE_PLUGGED, NULL);
 	pthread_mutex_unlock(&live->lock);
 }
 
-void pen_live_unplug(struct pen_live *live, int device)
+void live_unplug(struct live *live, int device)
 {
 	pthread_mutex_lock(&live->lock);
-	queue_add(live, device, pen_live_clock_us() - live->start_us, SIZE_UNPLUGGED, NULL);
+	queue_add(live, device, live_clock_us() - live->start_us, SIZE_UNPLUGGED, NULL);
 	pthread_mutex_unlock(&live->lock);
 }
 
-struct live_changes pen_live_collect(struct pen_live *live, struct frame_reports *reports)
+struct live_changes live_collect(struct live *live, struct frame_reports *reports)
 {
 	struct live_changes changes = {0};
 	unsigned reported = 0;
@@ -128,7 +127,7 @@ struct live_changes pen_live_collect(struct pen_live *live, struct frame_reports
 	return changes;
 }
 
-void pen_live_device(struct pen_live *live, int device, struct tape_device *told)
+void live_device(struct live *live, int device, struct tape_device *told)
 {
 	MUST(device >= 0 && device < PEN_DEVICES_MAX);
 	pthread_mutex_lock(&live->lock);
@@ -136,14 +135,14 @@ void pen_live_device(struct pen_live *live, int device, struct tape_device *told
 	pthread_mutex_unlock(&live->lock);
 }
 
-void pen_live_text(struct pen_live *live, char text[LIVE_TEXT_MAX])
+void live_text(struct live *live, char text[LIVE_TEXT_MAX])
 {
 	pthread_mutex_lock(&live->lock);
 	memcpy(text, live->text, LIVE_TEXT_MAX);
 	pthread_mutex_unlock(&live->lock);
 }
 
-long pen_live_lost(struct pen_live *live)
+long live_lost(struct live *live)
 {
 	pthread_mutex_lock(&live->lock);
 	long lost = live->lost;
@@ -155,7 +154,7 @@ long pen_live_lost(struct pen_live *live)
 
 /* A tablet that comes back to its place gets its number back; else the first number that no
  * tablet has had, else any that is free. -1: all are in use. */
-static int tablet_number(const struct pen_live *live, const char *place)
+static int tablet_number(const struct live *live, const char *place)
 {
 	int unused = -1, idle = -1;
 	for (int i = LIVE_TABLETS_MAX - 1; i >= 0; i--) {
@@ -170,7 +169,7 @@ static int tablet_number(const struct pen_live *live, const char *place)
 	return unused >= 0 ? unused : idle;
 }
 
-static int tablet_add(struct pen_live *live, int fd, bool own, const char *path, const char *place,
+static int tablet_add(struct live *live, int fd, bool own, const char *path, const char *place,
 		      const struct tape_device *told)
 {
 	char reason[160];
@@ -187,11 +186,11 @@ static int tablet_add(struct pen_live *live, int fd, bool own, const char *path,
 	}
 	pthread_mutex_unlock(&live->lock);
 	if (device >= 0)
-		pen_live_plug(live, device, told);
+		live_plug(live, device, told);
 	return device;
 }
 
-static void tablet_remove(struct pen_live *live, int device)
+static void tablet_remove(struct live *live, int device)
 {
 	pthread_mutex_lock(&live->lock);
 	struct tablet *tablet = &live->tablet[device];
@@ -199,12 +198,12 @@ static void tablet_remove(struct pen_live *live, int device)
 		close(tablet->fd);
 	tablet->fd = -1;
 	pthread_mutex_unlock(&live->lock);
-	pen_live_unplug(live, device);
+	live_unplug(live, device);
 }
 
 /* Takes what one tablet has ready. Only reports with a pen are kept: the same node may be a
  * keyboard too, and what is typed is nobody's business. */
-static void tablet_read(struct pen_live *live, int device)
+static void tablet_read(struct live *live, int device)
 {
 	struct tablet *tablet = &live->tablet[device];
 	for (int i = 0; i < 64; i++) {
@@ -218,15 +217,14 @@ static void tablet_read(struct pen_live *live, int device)
 			tablet_remove(live, device);
 			return;
 		}
-		int64_t time_us = pen_live_clock_us() - live->start_us;
+		int64_t time_us = live_clock_us() - live->start_us;
 		if (pen_report_read(tablet->layout, tablet->layout_count, bytes, (int)size, &fields,
 				    &cut_off))
-			pen_live_push(live, device, time_us, (int)size, bytes);
+			live_push(live, device, time_us, (int)size, bytes);
 	}
 }
 
-int pen_live_attach(struct pen_live *live, int fd, const char *place,
-		    const struct tape_device *told)
+int live_attach(struct live *live, int fd, const char *place, const struct tape_device *told)
 {
 	int flags = fcntl(fd, F_GETFL);
 	fcntl(fd, F_SETFL, flags | O_NONBLOCK);
@@ -238,7 +236,7 @@ int pen_live_attach(struct pen_live *live, int fd, const char *place,
 
 /* --- searching -------------------------------------------------------------------------------- */
 
-static bool node_wanted(const struct pen_live *live, const struct pen_node *node)
+static bool node_wanted(const struct live *live, const struct live_node *node)
 {
 	const struct board *board = &live->board;
 	bool any = !board->tablet_vendor && !board->tablet_product;
@@ -246,7 +244,7 @@ static bool node_wanted(const struct pen_live *live, const struct pen_node *node
 					      node->told.product == board->tablet_product));
 }
 
-static bool node_open(struct pen_live *live, const struct pen_node *node)
+static bool node_open(struct live *live, const struct live_node *node)
 {
 	bool found = false;
 	pthread_mutex_lock(&live->lock);
@@ -256,19 +254,19 @@ static bool node_open(struct pen_live *live, const struct pen_node *node)
 	return found;
 }
 
-static void text_set(struct pen_live *live, const char *name, const char *text)
+static void text_set(struct live *live, const char *name, const char *text)
 {
 	pthread_mutex_lock(&live->lock);
 	snprintf(live->text, sizeof live->text, "%.80s%s%.150s", name, *name ? ": " : "", text);
 	pthread_mutex_unlock(&live->lock);
 }
 
-static void tablets_search(struct pen_live *live)
+static void tablets_search(struct live *live)
 {
-	int count = pen_nodes_find(live->nodes, LIVE_NODES_MAX);
-	const struct pen_node *told = NULL;
+	int count = live_nodes_find(live->nodes, LIVE_NODES_MAX);
+	const struct live_node *told = NULL;
 	for (int i = 0; i < count; i++) {
-		struct pen_node *node = &live->nodes[i];
+		struct live_node *node = &live->nodes[i];
 		if (!node_wanted(live, node))
 			continue;
 		told = told && told->readable ? told : node;
@@ -292,7 +290,7 @@ static void tablets_search(struct pen_live *live)
 /* --- the thread ------------------------------------------------------------------------------- */
 
 /* Waits for the tablets, for udev, for a wake-up, at most a second. False: to be stopped. */
-static bool wait_and_read(struct pen_live *live, bool *search)
+static bool wait_and_read(struct live *live, bool *search)
 {
 	struct pollfd fds[2 + LIVE_TABLETS_MAX];
 	fds[0] = (struct pollfd){live->wake[0], POLLIN, 0};
@@ -319,11 +317,11 @@ static bool wait_and_read(struct pen_live *live, bool *search)
 
 static void *thread_main(void *argument)
 {
-	struct pen_live *live = argument;
+	struct live *live = argument;
 	int64_t searched_us = 0;
 	bool search = true;
 	do {
-		int64_t now_us = pen_live_clock_us();
+		int64_t now_us = live_clock_us();
 		if (search || now_us - searched_us >= RESCAN_MS * INT64_C(1000)) {
 			tablets_search(live);
 			searched_us = now_us;
@@ -333,7 +331,7 @@ static void *thread_main(void *argument)
 	return NULL;
 }
 
-static void monitor_open(struct pen_live *live)
+static void monitor_open(struct live *live)
 {
 	live->udev = udev_new();
 	live->monitor = live->udev ? udev_monitor_new_from_netlink(live->udev, "udev") : NULL;
@@ -346,7 +344,7 @@ static void monitor_open(struct pen_live *live)
 	}
 }
 
-static void live_free(struct pen_live *live)
+static void live_free(struct live *live)
 {
 	for (int i = 0; i < LIVE_TABLETS_MAX; i++)
 		if (live->tablet[i].fd >= 0 && live->tablet[i].own)
@@ -362,9 +360,9 @@ static void live_free(struct pen_live *live)
 	free(live);
 }
 
-struct pen_live *pen_live_open(const struct board *board, int64_t start_us)
+struct live *live_open(const struct board *board, int64_t start_us)
 {
-	struct pen_live *live = calloc(1, sizeof *live);
+	struct live *live = calloc(1, sizeof *live);
 	if (!live)
 		return NULL;
 	live->board = *board;
@@ -384,7 +382,7 @@ struct pen_live *pen_live_open(const struct board *board, int64_t start_us)
 	return live;
 }
 
-void pen_live_close(struct pen_live *live)
+void live_close(struct live *live)
 {
 	if (!live)
 		return;

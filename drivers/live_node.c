@@ -4,7 +4,7 @@
  * is opened, and a keyboard is never opened at all. Where sysfs has none, HIDIOCGRDESC on a
  * descriptor of our own gives it (hidapi 0.13 cannot). Both are what the kernel's driver made of
  * it. */
-#include "pen_live.h"
+#include "live.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -51,7 +51,7 @@ static void descriptor_ask(int fd, struct tape_device *told)
 }
 
 /* The bus, and where on it. */
-static void uevent_read(const char *base, struct pen_node *node)
+static void uevent_read(const char *base, struct live_node *node)
 {
 	char path[160], text[512], *line;
 	unsigned bus;
@@ -70,7 +70,7 @@ static void uevent_read(const char *base, struct pen_node *node)
 
 /* --- in words --------------------------------------------------------------------------------- */
 
-static void text_pen(struct pen_node *node)
+static void text_pen(struct live_node *node)
 {
 	const struct pen_layout *l = &node->layout[0];
 	char size[48] = "size not stated: set tablet_mm in the board file";
@@ -87,7 +87,7 @@ static void text_pen(struct pen_node *node)
 			 : "");
 }
 
-static void node_words(struct pen_node *node, const char *reason, int error)
+static void node_words(struct live_node *node, const char *reason, int error)
 {
 	if (node->layout_count && node->readable)
 		text_pen(node);
@@ -110,7 +110,7 @@ static void node_words(struct pen_node *node, const char *reason, int error)
 
 /* --- nodes ------------------------------------------------------------------------------------ */
 
-static void node_inspect(struct pen_node *node)
+static void node_inspect(struct live_node *node)
 {
 	char path[160], reason[160] = "";
 	const char *base = strrchr(node->path, '/');
@@ -152,7 +152,7 @@ static void name_copy(char *name, size_t capacity, const wchar_t *maker, const w
 	name[at] = 0;
 }
 
-static struct pen_node *node_known(struct pen_node *nodes, int count, const char *path)
+static struct live_node *node_known(struct live_node *nodes, int count, const char *path)
 {
 	for (int i = 0; i < count; i++)
 		if (!strcmp(nodes[i].path, path))
@@ -160,7 +160,7 @@ static struct pen_node *node_known(struct pen_node *nodes, int count, const char
 	return NULL;
 }
 
-int pen_nodes_find(struct pen_node *nodes, int capacity)
+int live_nodes_find(struct live_node *nodes, int capacity)
 {
 	int count = 0;
 	struct hid_device_info *all = hid_enumerate(0, 0);
@@ -168,11 +168,11 @@ int pen_nodes_find(struct pen_node *nodes, int capacity)
 		/* hidapi lists a node once for each of its usages */
 		if (!info->path || node_known(nodes, count, info->path))
 			continue;
-		struct pen_node *node = &nodes[count++];
-		*node = (struct pen_node){.told.used = true,
-					  .told.bus = 3,
-					  .told.vendor = info->vendor_id,
-					  .told.product = info->product_id};
+		struct live_node *node = &nodes[count++];
+		*node = (struct live_node){.told.used = true,
+					   .told.bus = 3,
+					   .told.vendor = info->vendor_id,
+					   .told.product = info->product_id};
 		snprintf(node->path, sizeof node->path, "%s", info->path);
 		name_copy(node->told.name, sizeof node->told.name, info->manufacturer_string,
 			  info->product_string);

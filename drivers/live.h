@@ -1,13 +1,13 @@
 /* Attached tablets and buttons, live: threads read, stamp and queue; the frame loop collects.
  *
- *   hidraw nodes --thread of pen_live.c--+
- *                                        +--> queue --pen_live_collect--> frame_reports
+ *   hidraw nodes --thread of live.c--+
+ *                                        +--> queue --live_collect--> frame_reports
  *   GPIO lines ----thread of buttons.c---+
  *
  * Nothing in the frame loop waits for a device: plugging, unplugging and searching happen in the
  * threads. A full queue drops the newest reports and counts them. */
-#ifndef PEN_LIVE_H
-#define PEN_LIVE_H
+#ifndef LIVE_H
+#define LIVE_H
 
 #include "board.h"
 #include "pen.h"
@@ -27,7 +27,7 @@ enum {
 enum { LIVE_NODES_MAX = 32, LIVE_TEXT_MAX = 240 };
 
 /* A hidraw node as it is found; nothing is sent to it, and only pens are ever opened. */
-struct pen_node {
+struct live_node {
 	char path[64];           /* /dev/hidraw3 */
 	char place[96];          /* where it is plugged in: the same after plugging in again */
 	char driver[32];         /* the kernel's driver, "" unknown */
@@ -39,11 +39,11 @@ struct pen_node {
 };
 
 /* Lists the hidraw nodes, at most `capacity`; returns how many there are. */
-int pen_nodes_find(struct pen_node *nodes, int capacity);
+int live_nodes_find(struct live_node *nodes, int capacity);
 
 /* --- live ------------------------------------------------------------------------------------- */
 
-struct pen_live;
+struct live;
 
 /* Plugging in this frame, a bit a device. Call pen_describe for what was plugged, then read the
  * reports, then pen_unplugged. */
@@ -53,35 +53,33 @@ struct live_changes {
 
 /* Starts searching for tablets (the board says which), and goes on until closed. start_us: the
  * moment on CLOCK_MONOTONIC that reports count their time from. NULL: no memory or no thread. */
-struct pen_live *pen_live_open(const struct board *board, int64_t start_us);
-void pen_live_close(struct pen_live *live);
+struct live *live_open(const struct board *board, int64_t start_us);
+void live_close(struct live *live);
 
 /* Adds what came since the last call. What does not fit waits for the next frame. */
-struct live_changes pen_live_collect(struct pen_live *live, struct frame_reports *reports);
+struct live_changes live_collect(struct live *live, struct frame_reports *reports);
 
 /* Name, ids, size and descriptor of a device as it was last plugged in. */
-void pen_live_device(struct pen_live *live, int device, struct tape_device *told);
+void live_device(struct live *live, int device, struct tape_device *told);
 
 /* One line about tablets for the service page: what is there, or what is missing and the remedy. */
-void pen_live_text(struct pen_live *live, char text[LIVE_TEXT_MAX]);
+void live_text(struct live *live, char text[LIVE_TEXT_MAX]);
 
 /* Reports that were lost because nobody collected for too long. */
-long pen_live_lost(struct pen_live *live);
+long live_lost(struct live *live);
 
 /* --- for other sources, and for tests ----------------------------------------------------------
  */
 
-int64_t pen_live_clock_us(void); /* CLOCK_MONOTONIC */
+int64_t live_clock_us(void); /* CLOCK_MONOTONIC */
 
 /* Queue a report, with the time since start; queue that a device came or went. */
-void pen_live_push(struct pen_live *live, int device, int64_t time_us, int size,
-		   const uint8_t *bytes);
-void pen_live_plug(struct pen_live *live, int device, const struct tape_device *told);
-void pen_live_unplug(struct pen_live *live, int device);
+void live_push(struct live *live, int device, int64_t time_us, int size, const uint8_t *bytes);
+void live_plug(struct live *live, int device, const struct tape_device *told);
+void live_unplug(struct live *live, int device);
 
 /* Reads an open descriptor like a tablet's hidraw node from now on; a read of 0 bytes or an error
  * is its unplugging. Returns the device, -1: no place. */
-int pen_live_attach(struct pen_live *live, int fd, const char *place,
-		    const struct tape_device *told);
+int live_attach(struct live *live, int fd, const char *place, const struct tape_device *told);
 
 #endif
