@@ -118,8 +118,17 @@ static void mark_line(struct draw *draw, const struct v3 *point_m, const struct 
 		struct stroke gap = {0xffffff, 1.0f, 0.9f * draw->px, DASH_SOLID, 1.0f};
 		ribbons_line(draw, point_m, normal, count, mark_lift_m, &gap);
 	}
-	if (count)
-		sprite_number(draw, v3_mad(point_m[0], normal[0], 0.004f), number);
+}
+
+/* A mark on the body that the garment's mark of the same number has come to lie on needs no number
+ * of its own. */
+static bool partner_worn(const struct draw *draw, const struct session *session, int number)
+{
+	for (int i = 0; i < MARKS_MAX; i++)
+		if (session->document.marks.cloth[i].used &&
+		    session->document.marks.cloth[i].number == number)
+			return draw->cloth.index_count > 0 && draw->marks.ride_count[i] > 0;
+	return false;
 }
 
 static void pins_add(struct draw *draw, const struct session *session)
@@ -140,26 +149,37 @@ static void pins_add(struct draw *draw, const struct session *session)
 	}
 }
 
-void marks_add(struct draw *draw, const struct ui *ui, const struct session *session)
+static void marks_shown(struct draw *draw, const struct session *session)
 {
 	struct draw_marks *own = &draw->marks;
 	struct v3 point_m[MARK_SAMPLES_MAX], normal[MARK_SAMPLES_MAX];
-	marks_follow(draw, session);
-	if (draw->cloth.index_count)
-		pins_add(draw, session);
-	if (ui->step != STEP_MARK && ui->step != STEP_DRESS)
-		return;
 	for (int i = 0; i < MARKS_MAX; i++) {
-		const struct cloth_mark *mark = &session->document.marks.cloth[i];
-		int count = 0;
-		mark_line(draw, own->line_m[i], own->line_normal[i], own->line_count[i],
-			  session->document.marks.body[i].number);
+		int number = session->document.marks.body[i].number, count = own->line_count[i];
+		mark_line(draw, own->line_m[i], own->line_normal[i], count, number);
+		if (count && !partner_worn(draw, session, number))
+			sprite_number(draw, own->line_m[i][0], number);
+	}
+	ribbons_draw(draw, 0.0f); /* the body lies body_bias_m deeper; cloth on it hides them */
+	ribbons_begin(draw);
+	for (int i = 0; i < MARKS_MAX; i++) {
+		int number = session->document.marks.cloth[i].number, count = 0;
 		for (int k = 0; k < own->ride_count[i]; k++)
 			if (ride_point(draw, session, &own->ride[i][k], &point_m[count],
 				       &normal[count]))
 				count++;
-		mark_line(draw, point_m, normal, count, mark->number);
+		mark_line(draw, point_m, normal, count, number);
+		if (count)
+			sprite_number(draw, point_m[0], number);
 	}
+}
+
+void marks_add(struct draw *draw, const struct ui *ui, const struct session *session)
+{
+	marks_follow(draw, session);
+	if (ui->step == STEP_MARK || ui->step == STEP_DRESS)
+		marks_shown(draw, session);
+	if (draw->cloth.index_count)
+		pins_add(draw, session);
 }
 
 /* ---- the hand: ring, stroke in progress, line of a drag; over everything ---- */
