@@ -45,7 +45,8 @@ objects = $(patsubst %.c,$(B)/%.o,$(1))
 
 # The pure part: what turns a tape into a state hash. It needs a C library and no package at all.
 CORE := $(call sources,src)
-PURE := $(CORE) $(wildcard drivers/tape*.c drivers/pen*.c) \
+PURE := $(CORE) $(wildcard drivers/tape*.c) \
+        $(filter-out drivers/pen_live% drivers/pen_node%,$(wildcard drivers/pen*.c)) \
         $(filter-out ui/draw%,$(call sources,ui)) \
         $(wildcard firmware-host/kiosk*.c firmware-host/must.c)
 
