@@ -47,7 +47,7 @@ struct body {
 	int bone_count;
 	struct bone bone[BODY_BONES_MAX];
 	struct v3 low_m, high_m;
-	uint64_t hash; /* of positions and triangles: names the body in a journal */
+	uint64_t hash;                /* of positions and triangles: names the body in a journal */
 	struct body_scratch *scratch; /* owned by body_*.c */
 };
 
