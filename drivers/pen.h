@@ -95,6 +95,9 @@ void pen_resize(struct pen *pen, int device, float width_mm, float height_mm);
 int pen_descriptor_read(const uint8_t *descriptor, int size,
 			struct pen_layout layout[PEN_REPORTS_MAX], char reason[160]);
 
+/* Is this a well-formed descriptor, be it of a pen or not? */
+bool pen_descriptor_sound(const uint8_t *descriptor, int size);
+
 /* The layout that this report has, and its fields; NULL when it is no pen's report or is cut off
  * (*cut_off). */
 const struct pen_layout *pen_report_read(const struct pen_layout *layout, int layout_count,

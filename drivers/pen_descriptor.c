@@ -609,3 +609,10 @@ int pen_descriptor_read(const uint8_t *descriptor, int size,
 	snprintf(reason, 160, "%s", count ? "" : "no report with a pen's position and contact");
 	return count;
 }
+
+bool pen_descriptor_sound(const uint8_t *descriptor, int size)
+{
+	char reason[160];
+	struct reader r = {.bytes = descriptor, .size = size, .reason = reason};
+	return size >= 1 && size <= DESCRIPTOR_BYTES_MAX && descriptor_walk(&r);
+}

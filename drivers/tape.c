@@ -60,12 +60,6 @@ int tape_write_head(char *line, const struct tape *tape, int part)
 		return snprintf(line, TAPE_LINE_MAX, "# budget %ld\n", tape->budget_units);
 	if (tape->frame_count && part == index++)
 		return snprintf(line, TAPE_LINE_MAX, "# frames %d\n", tape->frame_count);
-	for (int i = 0; i < TAPE_DEVICES_MAX; i++) {
-		const struct tape_device *device = &tape->device[i];
-		if (device->width_mm >= 1.0f && part == index++)
-			return snprintf(line, TAPE_LINE_MAX, "# tablet %d %.2f %.2f\n", i,
-					(double)device->width_mm, (double)device->height_mm);
-	}
 	return 0;
 }
 
@@ -88,6 +82,11 @@ int tape_write_device(char *line, int device, const struct tape_device *descript
 				(unsigned)description->bus & 0xffff,
 				(unsigned)description->vendor & 0xffff,
 				(unsigned)description->product & 0xffff);
+	case 5:
+		if (description->width_mm >= 1.0f)
+			return snprintf(line, TAPE_LINE_MAX, "# tablet %d %.2f %.2f\n", device,
+					(double)description->width_mm,
+					(double)description->height_mm);
 	}
 	return 0;
 }

@@ -64,7 +64,8 @@ unsigned tape_frame(const struct tape *tape, int frame, size_t *cursor,
  * length; `line` must hold TAPE_LINE_MAX bytes.
  *
  * tape_write_head: part 0, 1, ... until it returns 0 gives the comments on top; budget and frames
- * are left out when 0. tape_write_device: likewise the lines D, R, N, P, I of a device.
+ * are left out when 0. tape_write_device: likewise the lines D, R, N, P, I of a device
+ * and its size.
  * tape_write_select: the events that follow are this device's. */
 enum { TAPE_LINE_MAX = 3 * TAPE_DESCRIPTOR_MAX + 64 };
 int tape_write_head(char *line, const struct tape *tape, int part);
