@@ -95,24 +95,32 @@ static void draw_swatch(const struct brush *brush, struct rect rect, const struc
 			enum target target)
 {
 	cairo_t *cr = brush->cr;
-	double u = brush->unit, edge = face->on ? 5.0 * u : 3.0 * u;
+	double u = brush->unit, inset = (face->on ? 7.0 : 4.0) * u;
+	double x = rect.x + inset, y = rect.y + inset;
+	double w = rect.w - 2.0 * inset, h = rect.h - 2.0 * inset;
 	int index = (int)target - TARGET_SWATCH_0;
+	if (face->on || face->hover) {
+		fill_box(brush, rect, 15.0, face->on ? LOOK_INK : LOOK_ROOM_DARK, 1.0);
+		round_box(cr, rect.x + 4.5 * u, rect.y + 4.5 * u, rect.w - 9.0 * u,
+			  rect.h - 9.0 * u, 11.5 * u);
+		ink(cr, LOOK_PAPER, 1.0);
+		cairo_fill(cr);
+	}
 	cairo_save(cr);
-	round_rect(cr, rect, 13.0 * u);
+	round_box(cr, x, y, w, h, 10.0 * u);
 	cairo_clip(cr);
 	ink(cr, look_outside[index], 1.0);
 	cairo_paint(cr);
 	/* The corner turned over: the cloth's own reverse. */
-	cairo_move_to(cr, rect.x + rect.w, rect.y + 0.52 * rect.h);
-	cairo_line_to(cr, rect.x + rect.w, rect.y + rect.h);
-	cairo_line_to(cr, rect.x + 0.52 * rect.w, rect.y + rect.h);
+	cairo_move_to(cr, x + w, y + 0.5 * h);
+	cairo_line_to(cr, x + w, y + h);
+	cairo_line_to(cr, x + 0.5 * w, y + h);
 	ink(cr, look_inside[index], 1.0);
 	cairo_fill(cr);
 	cairo_restore(cr);
-	round_box(cr, rect.x + 0.5 * edge, rect.y + 0.5 * edge, rect.w - edge, rect.h - edge,
-		  12.0 * u);
-	cairo_set_line_width(cr, edge);
-	ink(cr, face->on ? LOOK_INK : 0xffffff, face->on || face->hover ? 1.0 : 0.9);
+	round_box(cr, x + 0.5 * u, y + 0.5 * u, w - u, h - u, 10.0 * u);
+	cairo_set_line_width(cr, 1.5 * u);
+	ink(cr, LOOK_INK, 0.28);
 	cairo_stroke(cr);
 }
 
@@ -185,9 +193,10 @@ static void draw_twin(const struct brush *brush, struct rect rect, const struct 
 	ink(cr, colour_mix(colour, 0x000000, face->pressed ? 0.14 : 0.0), 1.0);
 	cairo_fill(cr);
 	if (face->hover && face->useful) {
-		disc(cr, x, y, 45.0 * u);
-		ink(cr, 0xffffff, 0.16);
-		cairo_fill(cr);
+		disc(cr, x, y, 49.5 * u);
+		cairo_set_line_width(cr, 3.0 * u);
+		ink(cr, LOOK_HINT_RIM, 1.0);
+		cairo_stroke(cr);
 	}
 	ink(cr, 0xffffff, 1.0);
 	draw_icon(cr, icon[which], x, y, 50.0 * u);
@@ -232,8 +241,14 @@ static void draw_hint(const struct brush *brush, struct rect rect, const struct 
 	ink(cr, rim, 1.0);
 	cairo_stroke(cr);
 	struct label label = {25.0 * u, 20.0 * u, LOOK_INK, LOOK_INK_GREY, ALIGN_LEFT};
+	int numbers = 0;
+	for (int k = 1; k >= 0; k--) /* the marks that it is about, at the right */
+		if (face->mark[k] > 0)
+			draw_number(cr, brush->type, face->mark[k],
+				    rect.x + rect.w - (36.0 + 46.0 * numbers++) * u,
+				    rect.y + 0.5 * rect.h, 17.0 * u, true);
 	draw_phrase(cr, brush->type, &text_phrase[face->text], brush->language,
-		    inner(rect, (int)(28.0 * u), (int)(24.0 * u)), &label);
+		    inner(rect, (int)(28.0 * u), (int)((24.0 + 46.0 * numbers) * u)), &label);
 }
 
 /* How far the cloth is stretched: calm green, then amber, then the colour of a warning. */

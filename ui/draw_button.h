@@ -21,6 +21,7 @@ struct face {
 	int progress;   /* 0..100: held, strain */
 	enum text text; /* the hint */
 	bool notice;
+	int mark[2]; /* numbers that the hint is about; 0: none */
 };
 
 struct brush {

@@ -66,7 +66,7 @@ static struct face face_of(const struct ui *ui, const struct session *session, i
 					     : 0;
 	} else if (item == ITEM_HINT) {
 		face.notice = ui->notice != TEXT_NONE;
-		face.text = face.notice ? (enum text)ui->notice : text_hint(ui, session);
+		face.text = face.notice ? (enum text)ui->notice : text_hint(ui, session, face.mark);
 	} else if (item == ITEM_METER) {
 		face.useful = session->cloth.worn;
 		face.progress = (int)(100.0f * float_clamp(session->strain_left, 0.0f, 1.0f));
@@ -83,6 +83,7 @@ static uint64_t face_hash(const struct face *face)
 	hash_int(&hash, face->pulse);
 	hash_int(&hash, face->progress);
 	hash_int(&hash, (int)face->text);
+	hash_int(&hash, face->mark[0] * 128 + face->mark[1]);
 	return hash.value;
 }
 

@@ -72,6 +72,13 @@ const struct phrase text_phrase[TEXT_COUNT] = {
 	[TEXT_FULL] = {"もういっぱいです。何かを消そう", "It is full. Remove something first"},
 	[TEXT_MESH] = {"この形は着せられません。布を描き直そう",
 		       "This shape cannot be worn. Redraw the piece"},
+	[TEXT_UNREACHED] = {"印も縫い目もない布が残っています",
+			    "Some cloth has neither a mark nor a seam"},
+	[TEXT_DISAGREE] = {"印が縫い目を引き離しています", "The marks pull the seams apart"},
+	[TEXT_LENGTHS] = {"二本の線の長さが、大きく違います",
+			  "These two lines differ much in length"},
+	[TEXT_NO_PARTNER] = {"この線の相手が、体にありません",
+			     "This line has no partner on the body"},
 	[TEXT_INSIDE_UP] = {"うら", "inside up"},
 	[TEXT_CLOTH] = {"布", "Piece"},
 	[TEXT_STRAIN] = {"布の伸び", "Stretch of the cloth"},
@@ -101,8 +108,9 @@ static const struct {
 	{"no such seam", TEXT_NO_SEAM},
 	{"no cloth", TEXT_OFF_CLOTH},
 	{"no body", TEXT_OFF_BODY},
+	{"seam leads", TEXT_MESH},
+	{"sewn twice", TEXT_EDGE_SEWN},
 	{"mesh", TEXT_MESH},
-	{"triang", TEXT_MESH},
 };
 
 static bool holds_words(const char *text, const char *words)
@@ -138,8 +146,33 @@ static enum text hint_mark(const struct ui *ui, const struct session *session)
 	return cloth > 0 && cloth == body ? TEXT_HINT_MARK_PAIR : TEXT_HINT_MARK_CLOTH;
 }
 
-enum text text_hint(const struct ui *ui, const struct session *session)
+/* The gravest of what the wrap found, in this order. */
+static enum text hint_diagnosis(const struct diagnoses *diagnoses, int mark[2])
 {
+	static const struct {
+		const char *kind;
+		enum text text;
+	} known[] = {
+		{"piece-unreached", TEXT_UNREACHED},
+		{"marks-disagree", TEXT_DISAGREE},
+		{"lengths-differ", TEXT_LENGTHS},
+		{"no-partner", TEXT_NO_PARTNER},
+	};
+	for (int k = 0; k < COUNT_OF(known); k++)
+		for (int d = 0; d < diagnoses->count; d++) {
+			const struct diagnosis *found = &diagnoses->item[d];
+			if (strcmp(found->kind, known[k].kind) != 0)
+				continue;
+			mark[0] = found->mark[0];
+			mark[1] = found->mark[1];
+			return known[k].text;
+		}
+	return TEXT_HINT_WORN;
+}
+
+enum text text_hint(const struct ui *ui, const struct session *session, int mark[2])
+{
+	mark[0] = mark[1] = 0;
 	if (session->job != JOB_NONE)
 		return TEXT_HINT_DRESSING;
 	if (session->relaxing)
@@ -152,7 +185,8 @@ enum text text_hint(const struct ui *ui, const struct session *session)
 	case STEP_MARK:
 		return hint_mark(ui, session);
 	case STEP_DRESS:
-		return session->cloth.worn ? TEXT_HINT_WORN : TEXT_HINT_DRESS;
+		return session->cloth.worn ? hint_diagnosis(&session->wrap.diagnoses, mark)
+					   : TEXT_HINT_DRESS;
 	case STEP_ADJUST:
 		if (!session->cloth.worn)
 			return TEXT_HINT_DRESS;

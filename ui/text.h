@@ -43,6 +43,11 @@ enum text {
 	TEXT_NOT_WORN,
 	TEXT_FULL,
 	TEXT_MESH,
+	/* What a wrap found (struct diagnosis; S10). */
+	TEXT_UNREACHED,
+	TEXT_DISAGREE,
+	TEXT_LENGTHS,
+	TEXT_NO_PARTNER,
 	/* Names on the sheet and the bars. */
 	TEXT_INSIDE_UP,
 	TEXT_CLOTH,
@@ -57,7 +62,8 @@ extern const struct phrase text_target[TARGET_COUNT];
 /* The visitor's words for why an edit was refused (session->notice, piece_fault and their like). */
 enum text text_refusal(const char *reason);
 
-/* The hint for what the visitor can do now. */
-enum text text_hint(const struct ui *ui, const struct session *session);
+/* The hint for what the visitor can do now, or what the last wrap has to say; mark: the numbers it
+ * is about, 0 where there are none. */
+enum text text_hint(const struct ui *ui, const struct session *session, int mark[2]);
 
 #endif

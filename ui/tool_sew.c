@@ -11,6 +11,7 @@ enum gesture tool_sew_begin(struct tool *tool)
 	ui->sew_to.piece = ui->sew_to.edge = -1;
 	if (!pick_edge(ui, tool->session, ui->start_px, from_reach_mm, &edge, &fraction))
 		return GESTURE_IDLE;
+	ui->seam = -1; /* one zip at a time */
 	ui->sew_from.piece = edge.piece;
 	ui->sew_from.edge = edge.edge;
 	return GESTURE_SEW;
@@ -27,11 +28,14 @@ void tool_sew_move(struct tool *tool)
 	ui->sew_to.edge = found && !same ? edge.edge : -1;
 }
 
+/* Its place counts as empty from here on: what is sewn there next is new. */
 static void push_unsew(struct tool *tool, int seam)
 {
 	struct edit *edit = seam >= 0 ? edit_push(tool->edits, EDIT_UNSEW) : NULL;
-	if (edit)
-		edit->i[0] = seam;
+	if (!edit)
+		return;
+	edit->i[0] = seam;
+	tool->ui->seams_seen &= ~((uint64_t)1 << seam);
 }
 
 static void push_sew(struct tool *tool, struct edge_ref a, struct edge_ref b, bool swapped)
