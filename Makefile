@@ -15,6 +15,9 @@ build ?= build
 B := $(build)/$(config)
 FUZZ_SECONDS ?= 10
 
+# The bundled visit; tests/hand.c writes it.
+TAPE := tests/tapes/tshirt.tape
+
 # A folder may include only what stands on its line. This is the layer rule.
 INC_src           := -iquote src
 INC_drivers       := -iquote src -iquote drivers
@@ -102,7 +105,7 @@ $(B)/%.o: %.c Makefile
 run:
 	@firmware-host/setup run
 	$(SUBMAKE) all
-	$(B)/kitsuke $(ARGS)
+	$(B)/kitsuke --else-replay $(TAPE) --out out $(ARGS)
 
 check:
 	@firmware-host/setup check

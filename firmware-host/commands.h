@@ -9,6 +9,7 @@ enum exit_status {
 	STATUS_MACHINE, /* the machine is: no memory, disk full, no display */
 };
 
+int command_station(int argc, char **argv); /* no word: the station itself */
 int command_replay(int argc, char **argv);
 int command_dress(int argc, char **argv);
 int command_import(int argc, char **argv);

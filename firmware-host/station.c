@@ -1,0 +1,414 @@
+/* The station: devices in, kiosk_frame, picture out, for as long as it is switched on.
+ *
+ * Frames are the program's only clock. The loop holds them to 60 a second; when one is late the
+ * program's time falls behind the wall's and stays behind, so that nothing ever has to catch up. */
+#include "commands.h"
+
+#include "board.h"
+#include "buttons.h"
+#include "character.h"
+#include "display.h"
+#include "draw.h"
+#include "kiosk.h"
+#include "live.h"
+#include "options.h"
+#include "store.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+enum {
+	WINDOW_WIDTH = 1280,
+	WINDOW_HEIGHT = 720,
+	FRAME_US = 1000000 / FRAME_RATE_HZ,
+	LATE_US = 3 * FRAME_US / 2,
+	REOPEN_FRAMES = 2 * FRAME_RATE_HZ, /* between tries to get a lost display back */
+};
+
+static const char usage[] =
+	"usage: kitsuke [--board FILE] [--body FILE|mannequin] [--journals FOLDER]\n"
+	"               [--else-replay TAPE --out DIR]\n";
+
+struct station {
+	const char *board_path, *body, *journals, *tape, *out;
+	struct board board;
+	enum display_kind kind;
+	struct display *display;
+	struct draw *draw;
+	int width, height;
+	void *memory;
+	struct kiosk *kiosk;
+	struct frame_reports *reports;
+	struct live *live;
+	struct buttons *buttons;
+	int64_t start_us; /* of frame 0, on CLOCK_MONOTONIC; moves on with every late frame */
+	int64_t opened_us;
+	int journal; /* file, -1: none */
+	int touched; /* last frame with input */
+	int lost;    /* frame at which the display was lost */
+	char fault[FAULT_BYTES];
+};
+
+static volatile sig_atomic_t stopped;
+
+static void stop(int signal_number)
+{
+	(void)signal_number;
+	stopped = 1;
+}
+
+static void say(const char *line)
+{
+	fprintf(stderr, "kitsuke: %s\n", line);
+}
+
+/* ---- start ---- */
+
+static bool read_board(struct station *station)
+{
+	char wrong[200];
+	size_t size;
+	station->board = board_default;
+	if (!station->board_path)
+		return true;
+	char *text = store_read(station->board_path, &size, station->fault);
+	if (!text)
+		return false;
+	bool read = board_read(&station->board, text, size, wrong);
+	free(text);
+	if (!read)
+		snprintf(station->fault, FAULT_BYTES, "%.250s: %s", station->board_path, wrong);
+	return read;
+}
+
+/* KMS when a display is free for us, else a window where there is a desktop session. */
+static bool choose_display(struct station *station)
+{
+	char why_not[200];
+	station->kind = DISPLAY_KMS;
+	if (display_kms_free(why_not))
+		return true;
+	station->kind = DISPLAY_WINDOW;
+	station->width = WINDOW_WIDTH;
+	station->height = WINDOW_HEIGHT;
+	if (display_session())
+		return true;
+	snprintf(station->fault, FAULT_BYTES,
+		 "no display (%s) and no desktop session; a recorded visit can be played: "
+		 "kitsuke replay TAPE --out DIR",
+		 why_not);
+	return false;
+}
+
+static bool open_display(struct station *station)
+{
+	char fault[200];
+	station->display = display_open(station->kind, &station->width, &station->height, fault);
+	if (station->display)
+		station->draw = draw_open(station->width, station->height, fault);
+	if (station->draw)
+		return true;
+	if (station->display)
+		display_close(station->display);
+	station->display = NULL;
+	snprintf(station->fault, FAULT_BYTES, "%s", fault);
+	return false;
+}
+
+static void close_display(struct station *station)
+{
+	if (station->draw)
+		draw_close(station->draw);
+	if (station->display)
+		display_close(station->display);
+	station->draw = NULL;
+	station->display = NULL;
+}
+
+/* Journals go to the folder asked for, or to the user's state folder. Without a place to write the
+ * visit goes on unsaved, and the operator is told. */
+static void open_journal(struct station *station)
+{
+	char folder[PATH_BYTES_MAX / 2], path[PATH_BYTES_MAX], fault[FAULT_BYTES];
+	const char *state = getenv("XDG_STATE_HOME"), *home = getenv("HOME");
+	time_t now = time(NULL);
+	struct tm parts;
+	if (station->journals)
+		snprintf(folder, sizeof folder, "%s", station->journals);
+	else if (state)
+		snprintf(folder, sizeof folder, "%s/kitsuke", state);
+	else
+		snprintf(folder, sizeof folder, "%s/.local/state/kitsuke", home ? home : ".");
+	for (char *slash = strchr(folder + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
+		*slash = 0;
+		mkdir(folder, 0777);
+		*slash = '/';
+	}
+	station->journal = -1;
+	gmtime_r(&now, &parts);
+	char name[64];
+	strftime(name, sizeof name, "visit-%Y%m%d-%H%M%S.kitsuke", &parts);
+	if (store_make_folder(folder, fault) &&
+	    store_join(path, sizeof path, folder, name, fault)) {
+		station->journal = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+		if (station->journal < 0)
+			snprintf(fault, sizeof fault, "%.200s: %s", path, strerror(errno));
+	}
+	if (station->journal < 0)
+		fprintf(stderr, "kitsuke: this visit is not saved: %s\n", fault);
+}
+
+static void write_journal(struct station *station, const char *bytes, int size)
+{
+	if (station->journal < 0 || size == 0)
+		return;
+	if (write(station->journal, bytes, (size_t)size) == size)
+		return;
+	fprintf(stderr, "kitsuke: saving stops: %s; free some space, then restart\n",
+		strerror(errno));
+	close(station->journal);
+	station->journal = -1;
+}
+
+static void learn(struct station *station, int device)
+{
+	struct tape_device told;
+	live_device(station->live, device, &told);
+	pen_describe(&station->kiosk->pen, device, told.descriptor, told.descriptor_size);
+}
+
+/* A visit begins: everything as at switching on, but for the devices. */
+static bool begin_visit(struct station *station)
+{
+	char note[FAULT_BYTES];
+	struct kiosk *kiosk = station->kiosk;
+	const char *name = station->body ? station->body : CHARACTER_MANNEQUIN;
+	kiosk_init(kiosk, station->memory, station->width, station->height);
+	if (!character_load(&kiosk->session.body, name, NULL, note, station->fault))
+		return false;
+	if (station->board.budget_units > 0)
+		kiosk->session.budget_units = station->board.budget_units;
+	kiosk_body_named(kiosk, store_name(name));
+	for (int device = 0; station->live && device < LIVE_TABLETS_MAX; device++)
+		learn(station, device);
+	pen_describe(&kiosk->pen, LIVE_BUTTONS, buttons_descriptor, buttons_descriptor_size);
+	pen_describe(&kiosk->pen, LIVE_MOUSE, mouse_descriptor, mouse_descriptor_size);
+	pen_describe(&kiosk->pen, LIVE_KEYS, buttons_descriptor, buttons_descriptor_size);
+	if (station->draw)
+		draw_body_changed(station->draw);
+	station->touched = 0;
+	station->start_us = live_clock_us();
+	open_journal(station);
+	write_journal(station, JOURNAL_HEADER, (int)strlen(JOURNAL_HEADER));
+	return true;
+}
+
+static bool open_station(struct station *station)
+{
+	station->memory = malloc(KIOSK_MEMORY_BYTES);
+	station->kiosk = calloc(1, sizeof *station->kiosk);
+	station->reports = malloc(sizeof *station->reports);
+	if (!station->memory || !station->kiosk || !station->reports) {
+		snprintf(station->fault, FAULT_BYTES, "not enough memory");
+		return false;
+	}
+	if (!open_display(station) || !begin_visit(station))
+		return false;
+	char text[LIVE_TEXT_MAX];
+	station->opened_us = live_clock_us();
+	station->live = live_open(&station->board, station->opened_us);
+	if (station->live)
+		station->buttons = buttons_open(&station->board, station->live, station->opened_us);
+	if (station->live) {
+		live_text(station->live, text);
+		say(text);
+	}
+	if (station->buttons) {
+		buttons_text(station->buttons, text);
+		say(text);
+	}
+	return true;
+}
+
+/* ---- one frame ---- */
+
+/* Reports are stamped by the wall's clock; the frame that takes them says when they count, as it
+ * will on a tape. */
+static void stamp(struct station *station)
+{
+	int64_t frame_us = (int64_t)station->kiosk->frame * 1000000 / FRAME_RATE_HZ;
+	for (int i = 0; i < station->reports->count; i++) {
+		struct raw_report *report = &station->reports->report[i];
+		int64_t time_us = report->time_us + station->opened_us - station->start_us;
+		time_us = time_us > frame_us ? time_us : frame_us;
+		report->time_us = time_us < frame_us + FRAME_US - 1 ? time_us
+								    : frame_us + FRAME_US - 1;
+	}
+}
+
+static unsigned collect(struct station *station)
+{
+	unsigned unplugged = 0;
+	station->reports->count = 0;
+	if (station->live) {
+		struct live_changes changes = live_collect(station->live, station->reports);
+		for (int device = 0; device < LIVE_TABLETS_MAX; device++)
+			if (changes.plugged >> device & 1)
+				learn(station, device);
+		unplugged = changes.unplugged;
+	}
+	int64_t now_us = live_clock_us() - station->opened_us;
+	if (station->kind == DISPLAY_WINDOW && station->display &&
+	    !display_input(station->display, LIVE_MOUSE, now_us, station->reports))
+		stopped = 1;
+	stamp(station);
+	if (station->reports->count > 0)
+		station->touched = station->kiosk->frame;
+	return unplugged;
+}
+
+static void show(struct station *station)
+{
+	struct kiosk *kiosk = station->kiosk;
+	if (station->display) {
+		draw_frame(station->draw, &kiosk->ui, &kiosk->session);
+		if (display_present(station->display))
+			return;
+		say("the display went away; waiting for it");
+		close_display(station);
+		station->lost = kiosk->frame;
+	}
+	if ((kiosk->frame - station->lost) % REOPEN_FRAMES == REOPEN_FRAMES - 1)
+		open_display(station);
+}
+
+/* Sleeps until the frame's end by the wall's clock, or lets a late frame slow the program down. */
+static void pace(struct station *station)
+{
+	int64_t due_us = station->start_us +
+			 (int64_t)station->kiosk->frame * 1000000 / FRAME_RATE_HZ;
+	int64_t early_us = due_us - live_clock_us();
+	if (early_us < -LATE_US)
+		station->start_us -= early_us + LATE_US;
+	/* a display of 60 Hz paces us by itself: leave it its own jitter */
+	if (early_us > 2000) {
+		struct timespec rest = {0, (long)(early_us - 1000) * 1000};
+		nanosleep(&rest, NULL);
+	}
+}
+
+static bool idle(const struct station *station)
+{
+	int frames = station->kiosk->frame - station->touched;
+	return station->board.idle_s > 0 && frames > station->board.idle_s * FRAME_RATE_HZ &&
+	       station->kiosk->session.undo_count > 0;
+}
+
+static void end_visit(struct station *station)
+{
+	kiosk_finish(station->kiosk);
+	write_journal(station, station->kiosk->journal, station->kiosk->journal_size);
+	if (station->journal >= 0)
+		close(station->journal);
+	station->journal = -1;
+}
+
+static bool run(struct station *station)
+{
+	while (!stopped) {
+		unsigned unplugged = collect(station);
+		kiosk_frame(station->kiosk, station->reports, unplugged);
+		write_journal(station, station->kiosk->journal, station->kiosk->journal_size);
+		show(station);
+		pace(station);
+		if (idle(station)) {
+			end_visit(station);
+			if (!begin_visit(station))
+				return false;
+		}
+	}
+	return true;
+}
+
+static void close_station(struct station *station)
+{
+	if (station->kiosk)
+		end_visit(station);
+	if (station->buttons)
+		buttons_close(station->buttons);
+	if (station->live)
+		live_close(station->live);
+	close_display(station);
+	free(station->reports);
+	free(station->kiosk);
+	free(station->memory);
+}
+
+/* ---- the command ---- */
+
+static bool read_options(struct station *station, int argc, char **argv)
+{
+	for (int i = 1; i < argc; i++) {
+		const struct {
+			const char *word;
+			const char **value;
+		} options[] = {{"--board", &station->board_path},
+			       {"--body", &station->body},
+			       {"--journals", &station->journals},
+			       {"--else-replay", &station->tape},
+			       {"--out", &station->out}};
+		bool known = false;
+		for (int k = 0; k < COUNT_OF(options) && !known; k++)
+			if (strcmp(argv[i], options[k].word) == 0 && i + 1 < argc) {
+				*options[k].value = argv[++i];
+				known = true;
+			}
+		if (!known)
+			return false;
+	}
+	return !station->tape == !station->out;
+}
+
+static int replay_instead(struct station *station)
+{
+	char *argv[] = {"replay", (char *)(uintptr_t)station->tape, "--out",
+			(char *)(uintptr_t)station->out};
+	fprintf(stderr,
+		"kitsuke: %s\nkitsuke: so the bundled visit is played without a display; "
+		"its pictures go to %s\n",
+		station->fault, station->out);
+	return command_replay(COUNT_OF(argv), argv);
+}
+
+int command_station(int argc, char **argv)
+{
+	struct station station = {.journal = -1};
+	if (!read_options(&station, argc, argv)) {
+		fputs(usage, stderr);
+		return STATUS_USAGE;
+	}
+	if (!read_board(&station)) {
+		say(station.fault);
+		return STATUS_INPUT;
+	}
+	if (!choose_display(&station)) {
+		if (station.tape)
+			return replay_instead(&station);
+		say(station.fault);
+		return STATUS_MACHINE;
+	}
+	struct sigaction action = {.sa_handler = stop};
+	sigaction(SIGINT, &action, NULL);
+	sigaction(SIGTERM, &action, NULL);
+	bool fine = open_station(&station) && run(&station);
+	if (!fine)
+		say(station.fault);
+	close_station(&station);
+	return fine ? STATUS_DONE : STATUS_MACHINE;
+}

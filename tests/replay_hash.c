@@ -1,0 +1,62 @@
+/* Plays tapes through the pure part of the program and prints each one's state hash: what must be
+ * the same on every processor, compiler and optimisation level. Needs no package. */
+#include "kiosk.h"
+#include "tape.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static char *read_file(const char *path, size_t *size)
+{
+	FILE *file = fopen(path, "rb");
+	if (!file)
+		return NULL;
+	size_t capacity = (size_t)1 << 26;
+	char *text = malloc(capacity);
+	*size = text ? fread(text, 1, capacity, file) : 0;
+	fclose(file);
+	return text;
+}
+
+static bool play(struct kiosk *kiosk, void *memory, const char *path)
+{
+	static struct tape tape;
+	char fault[200];
+	size_t size, cursor = 0;
+	char *text = read_file(path, &size);
+	if (!text || !tape_read(&tape, text, size, fault)) {
+		fprintf(stderr, "%s: %s\n", path, text ? fault : "can't be read");
+		return false;
+	}
+	kiosk_init(kiosk, memory, tape.width_px, tape.height_px);
+	const char *wrong = body_build_mannequin(&kiosk->session.body);
+	MUST(!wrong);
+	body_find_parts(&kiosk->session.body);
+	if (tape.budget_units > 0)
+		kiosk->session.budget_units = tape.budget_units;
+	for (int d = 0; d < TAPE_DEVICES_MAX; d++)
+		if (tape.device[d].used)
+			pen_describe(&kiosk->pen, d, tape.device[d].descriptor,
+				     tape.device[d].descriptor_size);
+	for (int frame = 0; frame < tape.frame_count; frame++) {
+		struct frame_reports reports;
+		unsigned unplugged = tape_frame(&tape, frame, &cursor, &reports);
+		kiosk_frame(kiosk, &reports, unplugged);
+	}
+	printf("%016" PRIx64 " %s\n", session_hash(&kiosk->session), path);
+	tape_free(&tape);
+	free(text);
+	return true;
+}
+
+int main(int argc, char **argv)
+{
+	struct kiosk *kiosk = malloc(sizeof *kiosk);
+	void *memory = malloc(KIOSK_MEMORY_BYTES);
+	MUST(kiosk && memory);
+	bool fine = argc > 1;
+	for (int i = 1; i < argc; i++)
+		fine &= play(kiosk, memory, argv[i]);
+	return fine ? EXIT_SUCCESS : EXIT_FAILURE;
+}
