@@ -89,7 +89,7 @@ struct reader {
 	int usage_total;
 	uint32_t usage_minimum;
 	bool usage_minimum_given, usage_minimum_extended;
-	int delimiter_depth, delimiter_branch;
+	int delimiter_depth, delimiter_usages;
 	enum role role[COLLECTION_DEPTH_MAX + 1]; /* role[depth] holds for the fields in there */
 	int depth;
 	bool ids_used;
@@ -225,8 +225,8 @@ static bool local_item(struct reader *r, const struct item *item)
 {
 	bool extended = item->size == 4;
 	switch (item->tag) {
-	case 0x0: /* of alternative usages between delimiters the first counts */
-		if (r->delimiter_branch > 1)
+	case 0x0: /* usages between delimiters are alternatives for one control; the first counts */
+		if (r->delimiter_depth && r->delimiter_usages++)
 			return true;
 		return usage_add(r, item->value, item->value, extended);
 	case 0x1:
@@ -235,7 +235,7 @@ static bool local_item(struct reader *r, const struct item *item)
 		r->usage_minimum_extended = extended;
 		return true;
 	case 0x2:
-		if (!r->usage_minimum_given || r->delimiter_branch > 1)
+		if (!r->usage_minimum_given || r->delimiter_depth)
 			return true;
 		r->usage_minimum_given = false;
 		return usage_add(r, r->usage_minimum, item->value,
@@ -244,7 +244,7 @@ static bool local_item(struct reader *r, const struct item *item)
 		if (item->value ? r->delimiter_depth : !r->delimiter_depth)
 			return refuse(r, "delimiters that do not match");
 		r->delimiter_depth = item->value ? 1 : 0;
-		r->delimiter_branch += item->value ? 1 : 0;
+		r->delimiter_usages = 0;
 		return true;
 	}
 	return true;
@@ -254,7 +254,7 @@ static void locals_clear(struct reader *r)
 {
 	r->usage_count = r->usage_total = 0;
 	r->usage_minimum_given = false;
-	r->delimiter_depth = r->delimiter_branch = 0;
+	r->delimiter_depth = r->delimiter_usages = 0;
 }
 
 /* Usage number `index` of the current main item; the last one holds for all further fields. */

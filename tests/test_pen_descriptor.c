@@ -230,7 +230,7 @@ static void check_hostile(void)
 static void check_rare_items(void)
 {
 	static const char *hex = "050d 0902 a101 0920 a100 fe02aa1122"
-				 "0942 a901 0932 0934 a900 1500 2501 7501 9502 8102 9506 8103"
+				 "0942 a901 0932 0934 a900 0944 1500 2501 7501 9503 8102 9505 8103"
 				 "a4 0501 7510 9501 26409c 0930 8102 26a861 0931 8102 b4"
 				 "9508 8103 c0 c0";
 	uint8_t bytes[DESCRIPTOR_BYTES_MAX];
@@ -239,7 +239,7 @@ static void check_rare_items(void)
 	int size = table_hex(hex, bytes, sizeof bytes);
 	CHECK(pen_descriptor_read(bytes, size, layout, reason) == 1);
 	CHECK(layout[0].x.maximum == 40000 && layout[0].y.maximum == 25000);
-	CHECK(layout[0].in_range.bit == 1);
+	CHECK(layout[0].in_range.bit == 1 && layout[0].barrel.bit == 2);
 	CHECK(layout[0].report_bits == 48); /* after Pop eight fields are eight bits again */
 }
 
