@@ -16,7 +16,7 @@ B := $(build)/$(config)
 FUZZ_SECONDS ?= 10
 
 # The bundled visit; tests/hand.c writes it.
-TAPE := tests/tapes/tshirt.tape
+TAPE := tests/tapes/tshirt.hid
 
 # A folder may include only what stands on its line. This is the layer rule.
 INC_src           := -iquote src
