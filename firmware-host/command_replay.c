@@ -45,6 +45,7 @@ struct replay {
 	size_t journal_size;
 	struct snapshot snapshot;
 	struct contact_sheet contact;
+	const char *last_word; /* of the last edit, for captions */
 	char fault[FAULT_BYTES];
 };
 
@@ -154,8 +155,9 @@ static bool take_picture(struct replay *replay, int frame)
 	struct snapshot *shot = &replay->snapshot;
 	const struct session *session = &replay->kiosk->session;
 	snprintf(name, sizeof name, "frame-%06d.png", frame);
-	snprintf(caption, sizeof caption, "%d.%02d s  %d vertices", frame / FRAME_RATE_HZ,
-		 frame % FRAME_RATE_HZ * 100 / FRAME_RATE_HZ, session->garment.vertex_count);
+	snprintf(caption, sizeof caption, "%d.%02d s  %s", frame / FRAME_RATE_HZ,
+		 frame % FRAME_RATE_HZ * 100 / FRAME_RATE_HZ,
+		 replay->last_word ? replay->last_word : "");
 	snapshot_take(shot, &replay->kiosk->ui, session);
 	contact_add(&replay->contact, shot->width, shot->height, shot->rgba, caption);
 	return store_join(path, sizeof path, replay->out, name, replay->fault) &&
@@ -169,6 +171,8 @@ static bool run_frame(struct replay *replay, int frame)
 	frame_clock_begin(&replay->clock, &kiosk->session);
 	kiosk_frame(kiosk, replay->reports, unplugged);
 	frame_clock_end(&replay->clock, &kiosk->session);
+	if (kiosk->edits.count > 0)
+		replay->last_word = edit_word[kiosk->edits.item[kiosk->edits.count - 1].kind];
 	fwrite(kiosk->journal, 1, (size_t)kiosk->journal_size, replay->journal);
 	show_progress(replay, frame + 1);
 	bool last = frame + 1 == replay->frame_count;
