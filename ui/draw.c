@@ -157,7 +157,7 @@ static void figure_draw(struct draw *draw, const struct ui *ui, const struct ses
 	fringe_cloth_draw(draw, session);
 }
 
-static void lines_draw(struct draw *draw, const struct ui *ui, const struct session *session)
+void lines_draw(struct draw *draw, const struct ui *ui, const struct session *session)
 {
 	ribbons_begin(draw);
 	sprites_begin(draw);

@@ -4,9 +4,10 @@
 #include <stddef.h>
 #include <stdlib.h>
 
-enum { WEAVE_SIZE = 256, WEAVE_YARNS = 64, GLOW_FRAMES = 30 };
+enum { WEAVE_SIZE = 256, WEAVE_YARNS = 64, GLOW_FRAMES = 30, GLOW_LEVEL = 80 };
 
 static const float weave_width_m = 0.096f; /* 64 yarns of 1.5 mm */
+static const float caster_cell_m = 0.026f;
 
 /* Plain weave: over and under, yarns of uneven thickness and shade (slubs), mean brightness one
  * half, which the shader doubles. */
@@ -59,9 +60,11 @@ bool cloth_open(struct draw *draw, char fault[200])
 	cloth->edge_table = calloc(EDGE_TABLE_SIZE, sizeof *cloth->edge_table);
 	cloth->edge_use = calloc(GARMENT_EDGES_MAX * 2, sizeof *cloth->edge_use);
 	cloth->stitched = calloc(vertices, 1);
-	if (!cloth->stitched || !cloth->vertex || !cloth->rest || !cloth->index || !cloth->normal ||
-	    !cloth->crease || !cloth->born || !cloth->seen_rest_m || !cloth->seen_triangle ||
-	    !cloth->rim || !cloth->edge_table || !cloth->edge_use)
+	cloth->caster = calloc(vertices, sizeof *cloth->caster);
+	glGenBuffers(1, &cloth->caster_indices);
+	if (!cloth->caster || !cloth->stitched || !cloth->vertex || !cloth->rest || !cloth->index ||
+	    !cloth->normal || !cloth->crease || !cloth->born || !cloth->seen_rest_m ||
+	    !cloth->seen_triangle || !cloth->rim || !cloth->edge_table || !cloth->edge_use)
 		return false;
 	glGenBuffers(1, &cloth->moving);
 	glGenBuffers(1, &cloth->fixed);
@@ -85,6 +88,7 @@ void cloth_release(struct draw *draw)
 	free(cloth->edge_table);
 	free(cloth->edge_use);
 	free(cloth->stitched);
+	free(cloth->caster);
 }
 
 static bool garment_changed(const struct draw_cloth *cloth, const struct session *session)
@@ -111,8 +115,28 @@ static void colour_bytes(uint8_t out[4], uint32_t colour)
 	out[3] = 255;
 }
 
-static void garment_take(struct draw_cloth *cloth, const struct session *session)
+/* On the flat pieces, the first vertex of each cell stands for the others. Pieces are kept apart by
+ * laying them on levels of their own. */
+static void caster_choose(struct draw *draw, const struct garment *garment)
 {
+	struct draw_cloth *cloth = &draw->cloth;
+	struct mesh_order *order = &draw->order;
+	for (int v = 0; v < garment->vertex_count; v++)
+		cloth->normal[v] = (struct v3){garment->rest_m[v].x, garment->rest_m[v].y,
+					       2.0f * caster_cell_m * (float)garment->piece[v]};
+	mesh_coarsen(order, cloth->normal, garment->vertex_count, caster_cell_m, cloth->normal);
+	int first = 0;
+	for (int i = 0; i < garment->vertex_count; i++) {
+		int v = order->triangle[i];
+		if (i == 0 || order->rank[v] != order->rank[first])
+			first = v;
+		cloth->caster[v] = first;
+	}
+}
+
+static void garment_take(struct draw *draw, const struct session *session)
+{
+	struct draw_cloth *cloth = &draw->cloth;
 	const struct garment *garment = &session->garment;
 	const struct piece *piece = session->document.pattern.piece;
 	size_t vertices = (size_t)garment->vertex_count,
@@ -136,6 +160,14 @@ static void garment_take(struct draw_cloth *cloth, const struct session *session
 		     GL_STATIC_DRAW);
 	cloth->placed_count = -1;
 	cloth->rims_known = false;
+	caster_choose(draw, garment);
+}
+
+static void indices_fill(GLuint buffer, const uint16_t *index, int count)
+{
+	glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer);
+	glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)((size_t)count * sizeof *index), index,
+		     GL_DYNAMIC_DRAW);
 }
 
 /* Triangles all of whose corners have been laid on the body. */
@@ -162,10 +194,18 @@ static void indices_take(struct draw_cloth *cloth, const struct session *session
 		for (int k = 0; k < 3; k++)
 			cloth->index[cloth->index_count++] = (uint16_t)v[k];
 	}
-	glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, cloth->indices);
-	glBufferData(GL_ELEMENT_ARRAY_BUFFER,
-		     (GLsizeiptr)((size_t)cloth->index_count * sizeof *cloth->index), cloth->index,
-		     GL_DYNAMIC_DRAW);
+	indices_fill(cloth->indices, cloth->index, cloth->index_count);
+	cloth->caster_count = 0;
+	for (int t = 0; t < garment->triangle_count; t++) {
+		const int *v = garment->triangle[t].v;
+		int a = cloth->caster[v[0]], b = cloth->caster[v[1]], c = cloth->caster[v[2]];
+		if (!placed[a] || !placed[b] || !placed[c] || a == b || b == c || c == a)
+			continue;
+		cloth->index[cloth->caster_count++] = (uint16_t)a;
+		cloth->index[cloth->caster_count++] = (uint16_t)b;
+		cloth->index[cloth->caster_count++] = (uint16_t)c;
+	}
+	indices_fill(cloth->caster_indices, cloth->index, cloth->caster_count);
 }
 
 /* How deep a vertex lies in a valley: mean height of its neighbours above its tangent plane. Gives
@@ -210,7 +250,7 @@ void cloth_upload(struct draw *draw, const struct session *session)
 		return;
 	}
 	if (garment_changed(cloth, session)) {
-		garment_take(cloth, session);
+		garment_take(draw, session);
 		draw->marks.stale = true;
 	}
 	indices_take(cloth, session, session->frame);
@@ -226,7 +266,7 @@ void cloth_upload(struct draw *draw, const struct session *session)
 		float open = body_openness(draw, &session->body, &session->cloth.contact[p]);
 		open = float_clamp(open * (0.92f - valley), 0.08f, 1.0f);
 		int age = session->frame - cloth->born[v];
-		int glow = age < GLOW_FRAMES ? 200 * (GLOW_FRAMES - age) / GLOW_FRAMES : 0;
+		int glow = age < GLOW_FRAMES ? GLOW_LEVEL * (GLOW_FRAMES - age) / GLOW_FRAMES : 0;
 		vertex->position_m = session->cloth.position_m[p];
 		vertex->normal = cloth->normal[v];
 		vertex->material[0] = (uint8_t)(open * 255.0f);
@@ -238,7 +278,17 @@ void cloth_upload(struct draw *draw, const struct session *session)
 		     cloth->vertex, GL_STREAM_DRAW);
 }
 
-void cloth_bind(const struct draw *draw)
+void cloth_cast(const struct draw *draw)
+{
+	glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, draw->cloth.caster_indices);
+	glBindBuffer(GL_ARRAY_BUFFER, draw->cloth.moving);
+	gl_attributes(1u << AT_POSITION);
+	gl_floats(AT_POSITION, 3, (int)sizeof(struct cloth_vertex),
+		  offsetof(struct cloth_vertex, position_m));
+	glDrawElements(GL_TRIANGLES, draw->cloth.caster_count, GL_UNSIGNED_SHORT, NULL);
+}
+
+static void cloth_bind(const struct draw *draw)
 {
 	int stride = (int)sizeof(struct cloth_vertex), fixed = (int)sizeof(struct cloth_fixed);
 	gl_attributes(1u << AT_POSITION | 1u << AT_NORMAL | 1u << AT_MATERIAL | 1u << AT_PLACE |

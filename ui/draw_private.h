@@ -96,6 +96,9 @@ struct draw_cloth {
 	struct surface_program program;
 	GLuint weave;
 	int index_count;
+	GLuint caster_indices; /* fewer triangles between the same vertices cast the shadows */
+	int caster_count;
+	int *caster;                 /* per vertex: the vertex that stands for it there */
 	struct cloth_vertex *vertex; /* GARMENT_VERTICES_MAX */
 	struct cloth_fixed *rest;
 	uint16_t *index;
@@ -248,15 +251,18 @@ void camera_clip(const struct camera *camera, struct v3 point_m, float lift_m, f
 bool surface_open(struct surface_program *surface, bool cloth, bool fringe, char fault[200]);
 void surface_use(const struct surface_program *surface, const struct draw *draw, float bias_m);
 
+/* The stages of draw_frame that are measured one by one (tests/bench_draw.c). */
 void pane_enter(const struct draw *draw, const struct rect *pane);
 void background_draw(struct draw *draw, const struct ui *ui, const struct session *session);
+void lines_draw(struct draw *draw, const struct ui *ui, const struct session *session);
 void overlays_draw(struct draw *draw);
 
 void mesh_order(struct mesh_order *mesh, const struct v3 *position_m, int vertex_count,
 		const struct triangle *triangle, int triangle_count);
 
 /* Vertices that share a cell become one, at their mean; rank says which. Returns how many are left
- * (in coarse_m). Rough, and good enough for what casts a soft shadow. */
+ * (in coarse_m). Rough, and good enough for what casts a soft shadow. `triangle` then holds the
+ * vertices, cell by cell. */
 int mesh_coarsen(struct mesh_order *mesh, const struct v3 *position_m, int vertex_count,
 		 float cell_m, struct v3 *coarse_m);
 
@@ -275,7 +281,7 @@ void body_draw(struct draw *draw);
 bool cloth_open(struct draw *draw, char fault[200]);
 void cloth_release(struct draw *draw);
 void cloth_upload(struct draw *draw, const struct session *session);
-void cloth_bind(const struct draw *draw);
+void cloth_cast(const struct draw *draw);
 void cloth_draw(struct draw *draw);
 
 /* Soft outlines: what multisampling would do, for the price of the outline alone. */

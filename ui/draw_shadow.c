@@ -49,11 +49,8 @@ void shadow_draw(struct draw *draw)
 	glUniformMatrix4fv(shadow->clip, 1, GL_FALSE, draw->camera.world_to_light);
 	if (draw->body.index_count)
 		body_cast(draw);
-	if (draw->cloth.index_count) {
-		cloth_bind(draw);
-		gl_attributes(1u << AT_POSITION);
-		glDrawElements(GL_TRIANGLES, draw->cloth.index_count, GL_UNSIGNED_SHORT, NULL);
-	}
+	if (draw->cloth.index_count)
+		cloth_cast(draw);
 	glDisable(GL_POLYGON_OFFSET_FILL);
 	glBindFramebuffer(GL_FRAMEBUFFER, (GLuint)draw->target);
 }
