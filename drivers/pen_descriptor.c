@@ -74,7 +74,7 @@ struct candidate {
 	struct pen_field button; /* button 1: the tip of an absolute mouse */
 	struct pen_field button_2;
 	struct pen_field secondary_tip;
-	bool pen, mouse, touch, relative;
+	bool pen, mouse, relative;
 	float x_mm, y_mm;
 };
 
@@ -480,7 +480,6 @@ static void field_add(struct reader *r, uint32_t usage, uint32_t bit, bool relat
 		return;
 	c->pen |= r->role[r->depth] == ROLE_PEN;
 	c->mouse |= r->role[r->depth] == ROLE_MOUSE;
-	c->touch |= r->role[r->depth] == ROLE_TOUCH;
 	/* Wacom's page has X and Y as 0x130 and 0x131, and the digitizer's ids as they are. */
 	bool wacom_axis = page == PAGE_WACOM && (id == 0x130 || id == 0x131);
 	if (page == PAGE_DESKTOP || wacom_axis) {
@@ -504,7 +503,8 @@ static bool input_item(struct reader *r, uint32_t flags)
 		return refuse(r, "a report of more than 16 KiB");
 	*bits += g->report_size * g->report_count;
 	bool constant = flags & 1, variable = flags & 2, relative = flags & 4;
-	if (constant || !variable || !r->usage_count || r->role[r->depth] < ROLE_MOUSE)
+	enum role role = r->role[r->depth];
+	if (constant || !variable || !r->usage_count || (role != ROLE_PEN && role != ROLE_MOUSE))
 		return true;
 	/* Only as many fields as there are usages have a meaning of their own. */
 	int count = int_min((int)g->report_count, r->usage_total);
@@ -547,7 +547,7 @@ static bool axis_sound(const struct pen_field *field)
 static bool candidate_accept(const struct reader *r, struct candidate *c)
 {
 	struct pen_layout *l = &c->layout;
-	if (!axis_sound(&l->x) || !axis_sound(&l->y) || c->relative || c->touch)
+	if (!axis_sound(&l->x) || !axis_sound(&l->y) || c->relative)
 		return false;
 	if (l->pressure.maximum <= l->pressure.minimum)
 		l->pressure = (struct pen_field){0};

@@ -226,12 +226,13 @@ static void check_hostile(void)
 	CHECK(read_count(deep, DESCRIPTOR_BYTES_MAX + 1, reason) == 0);
 }
 
-/* A long item, a delimited set of usages, Push and Pop, and a maximum that looks negative. */
+/* A long item, a delimited set of usages, Push and Pop, a usage that brings its page, and a maximum
+ * that looks negative. */
 static void check_rare_items(void)
 {
 	static const char *hex = "050d 0902 a101 0920 a100 fe02aa1122"
 				 "0942 a901 0932 0934 a900 0944 1500 2501 7501 9503 8102 9505 8103"
-				 "a4 0501 7510 9501 26409c 0930 8102 26a861 0931 8102 b4"
+				 "a4 7510 9501 26409c 0b30000100 8102 0501 26a861 0931 8102 b4"
 				 "9508 8103 c0 c0";
 	uint8_t bytes[DESCRIPTOR_BYTES_MAX];
 	struct pen_layout layout[PEN_REPORTS_MAX];
