@@ -595,6 +595,29 @@ static void check_worn_mark(struct hand *hand)
 	CHECK(sent(hand, EDIT_UNMARK) == 1);
 }
 
+static float length_m(const struct edit *edit)
+{
+	float length = 0.0f;
+	for (int i = 1; i < edit->point_count; i++)
+		length += v3_distance(edit->point[i - 1], edit->point[i]);
+	return length;
+}
+
+/* Down the very middle, where a symmetric mesh has its edges and a ray may fall between two
+ * triangles, on both sides of the body. */
+static void check_middle(struct hand *hand)
+{
+	press(hand, TARGET_STEP_MARK);
+	press(hand, TARGET_LASER);
+	watch(hand);
+	line(hand, figure(hand, (struct v3){0, 1.36f, 0.1f}),
+	     figure(hand, (struct v3){0, 0.95f, 0.1f}));
+	CHECK(sent(hand, EDIT_MARK_BODY) == 2);
+	CHECK_NEAR(length_m(&hand->sent.item[0]), 0.42f, 0.06f);
+	CHECK_NEAR(length_m(&hand->sent.item[1]), 0.43f, 0.06f);
+	press(hand, TARGET_LASER);
+}
+
 static void visit(struct hand *hand, unsigned seed)
 {
 	ui_init(hand->ui, WIDTH, HEIGHT);
@@ -612,6 +635,8 @@ static void visit(struct hand *hand, unsigned seed)
 	check_clear(hand);
 	check_adjusting(hand);
 	check_worn_mark(hand);
+	check_clear(hand);
+	check_middle(hand);
 	check_clear(hand);
 	if (test_failures > failures)
 		fprintf(stderr, "with the hand of seed %u\n", seed);

@@ -74,6 +74,10 @@ int pick_pin(const struct ui *ui, const struct session *session, struct v2 posit
 /* The worn garment, where it lies in front of the body. */
 bool pick_worn(const struct ui *ui, const struct session *session, struct v2 position_px,
 	       struct worn_hit *hit);
+/* The first surface under a position, or the last one, seen from within (laser mode's other side).
+ */
+bool pick_body_side(const struct ui *ui, const struct session *session, struct v2 position_px,
+		    bool back, struct body_hit *hit);
 bool pick_body(const struct ui *ui, const struct session *session, struct v2 position_px,
 	       struct body_hit *hit);
 

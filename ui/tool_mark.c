@@ -138,14 +138,11 @@ static int run_on_body(const struct tool *tool, enum side side, const struct v2 
 	float leap_m = 0.03f + 6.0f * tool_px(tool->ui, point_spacing_mm) * view->distance_m /
 				       (view->focal * (float)view->pane.h);
 	for (int i = 0; i < count; i++) {
-		struct v3 origin, direction;
 		struct body_hit hit;
 		struct worn_hit worn;
-		view_ray(view, line[i], &origin, &direction);
-		good[i] = side == SIDE_FRONT
-				  ? body_ray(&tool->session->body, origin, direction, &hit) &&
-					    !pick_worn(tool->ui, tool->session, line[i], &worn)
-				  : body_ray_back(&tool->session->body, origin, direction, &hit);
+		good[i] = pick_body_side(tool->ui, tool->session, line[i], side == SIDE_BACK, &hit);
+		if (side == SIDE_FRONT && pick_worn(tool->ui, tool->session, line[i], &worn))
+			good[i] = false;
 		if (good[i])
 			point_m[i] = hit.point_m;
 		/* The far side of a leap begins a run of its own, one point later. */

@@ -173,14 +173,32 @@ int pick_pin(const struct ui *ui, const struct session *session, struct v2 posit
 	return found;
 }
 
+/* A ray that runs exactly between two triangles may slip through; one a third of a pixel beside it
+ * does not. */
+static const struct v2 beside_px = {0.31f, 0.17f};
+
+static bool ray_meets(const struct view *view, const struct body *body, struct v2 position_px,
+		      bool back, struct body_hit *hit)
+{
+	struct v3 origin, direction;
+	view_ray(view, position_px, &origin, &direction);
+	return back ? body_ray_back(body, origin, direction, hit)
+		    : body_ray(body, origin, direction, hit);
+}
+
+bool pick_body_side(const struct ui *ui, const struct session *session, struct v2 position_px,
+		    bool back, struct body_hit *hit)
+{
+	const struct body *body = &session->body;
+	return body->triangle_count > 0 &&
+	       (ray_meets(&ui->view, body, position_px, back, hit) ||
+		ray_meets(&ui->view, body, v2_add(position_px, beside_px), back, hit));
+}
+
 bool pick_body(const struct ui *ui, const struct session *session, struct v2 position_px,
 	       struct body_hit *hit)
 {
-	struct v3 origin, direction;
-	if (session->body.triangle_count == 0)
-		return false;
-	view_ray(&ui->view, position_px, &origin, &direction);
-	return body_ray(&session->body, origin, direction, hit);
+	return pick_body_side(ui, session, position_px, false, hit);
 }
 
 /* The ray's triangle of cloth, if the body does not lie before it. */
@@ -199,8 +217,6 @@ static int worn_triangle(const struct ui *ui, const struct session *session, str
 	return triangle;
 }
 
-/* A ray that runs exactly between two triangles may slip through: a second one, a third of a pixel
- * beside it, does not. */
 bool pick_worn(const struct ui *ui, const struct session *session, struct v2 position_px,
 	       struct worn_hit *hit)
 {
@@ -208,7 +224,7 @@ bool pick_worn(const struct ui *ui, const struct session *session, struct v2 pos
 		return false;
 	hit->triangle = worn_triangle(ui, session, position_px, hit->weight, &hit->point_m);
 	if (hit->triangle < 0) {
-		struct v2 beside = v2_add(position_px, (struct v2){0.31f, 0.17f});
+		struct v2 beside = v2_add(position_px, beside_px);
 		hit->triangle = worn_triangle(ui, session, beside, hit->weight, &hit->point_m);
 	}
 	if (hit->triangle < 0)

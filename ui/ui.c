@@ -17,6 +17,7 @@ void ui_step(struct ui *ui, enum step step)
 {
 	ui->step = step;
 	ui->erase = false;
+	ui->pin_toggled &= step >= STEP_DRESS;
 	layout_make(&ui->layout, ui->layout.width, ui->layout.height, step, ui->left_handed);
 }
 
