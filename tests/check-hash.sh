@@ -28,7 +28,7 @@ one() {
     echo "$name build-failed" >"$build/$name.hash"
     return
   fi
-  hash=$($runner "$program" "$tape" 2>>"$build/$name.log" | tail -n 1)
+  hash=$($runner "$program" "$tape" 2>>"$build/$name.log" | awk 'END { print $1 }')
   echo "$name ${hash:-no-hash} $(($(date +%s) - begin))s" | tee "$build/$name.hash"
 }
 
