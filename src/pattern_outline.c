@@ -2,8 +2,10 @@
  * curves (least squares between fixed ends, after Schneider 1990). */
 #include "pattern_private.h"
 
-#define CORNER_COSINE 0.82f /* 35 degrees: a smaller turn is a smooth joint */
-#define LINES_CORNER_COSINE 0.9f /* 26 degrees: the directions of lines are better known */
+#define CORNER_COSINE 0.82f         /* 35 degrees: a smaller turn is a smooth joint */
+#define LINES_CORNER_COSINE 0.9f    /* 26 degrees: the directions of lines are better known */
+#define DOUBTFUL_CORNER_COSINE 0.9f /* 26 degrees, when tremor hides how smooth a joint is */
+#define STRONG_TREMOR_MM2 25.0f
 #define SMOOTH_EXCESS 1.6e-4f
 #define STRAIGHT_SHARE 0.025f   /* bow of a straight run by its length */
 #define CROSSING_SINE_MIN 0.35f /* flatter lines have no useful crossing */
@@ -20,6 +22,25 @@ struct stretch {
 	struct v2 start;          /* joint point */
 	struct v2 handle[2];      /* of a curve, relative to its ends */
 };
+
+struct path {
+	bool closed;
+	int count;
+	struct stretch stretch[RUNS_MAX];
+	struct v2 end; /* of an open path */
+};
+
+static struct v2 stretch_end(const struct path *path, int k)
+{
+	if (k + 1 < path->count)
+		return path->stretch[k + 1].start;
+	return path->closed ? path->stretch[0].start : path->end;
+}
+
+static struct stretch *stretch_before(struct path *path, int k)
+{
+	return &path->stretch[k > 0 ? k - 1 : path->count - 1];
+}
 
 static struct v2 raw_at(const struct trace *trace, int i)
 {
@@ -91,7 +112,8 @@ static void end_line(const struct stretch *stretch, bool at_last, struct v2 *thr
 
 /* The point where two neighbours meet: where their lines cross, if that is near; else half-way
  * between their ends. */
-static struct v2 joint_point(const struct stretch *before, const struct stretch *after)
+static struct v2 joint_point(const struct stretch *before, const struct stretch *after,
+			     float tremor_mm)
 {
 	struct v2 a = run_point(&before->run, 1.0f), b = run_point(&after->run, 0.0f);
 	struct v2 middle = v2_lerp(a, b, 0.5f);
@@ -104,6 +126,7 @@ static struct v2 joint_point(const struct stretch *before, const struct stretch 
 	struct v2 crossing = v2_add(p, v2_scale(d, v2_cross(v2_sub(q, p), e) / sine));
 	float near_mm = float_max(CROSSING_MM, CROSSING_SHARE * float_min(before->run.length_mm,
 									  after->run.length_mm));
+	near_mm += 2.0f * tremor_mm;
 	return v2_distance(crossing, middle) <= near_mm ? crossing : middle;
 }
 
@@ -113,7 +136,7 @@ static float angle_reach_mm(const struct trace *trace)
 {
 	float length = trace->s_mm[trace->count];
 	float cube = 1200.0f * trace->noise_mm2 * length / (float)trace->count;
-	float reach = float_max(15.0f, length / 60.0f);
+	float reach = float_max(15.0f, float_max(length / 40.0f, 2.0f * trace->spacing_mm));
 	for (int k = 0; k < 32 && reach * reach * reach < 2.0f * cube; k++)
 		reach *= 1.1f;
 	return reach;
@@ -137,11 +160,14 @@ static bool curves_meet_in_corner(const struct run *before, const struct run *af
 	float width = across.length_mm;
 	float excess = across.cost_mm3 - back.cost_mm3 - on.cost_mm3;
 	float enough = SMOOTH_EXCESS * width * width * width;
-	if (enough > 12.0f * trace->noise_mm2 * spacing && excess < enough)
+	bool decisive = enough > 12.0f * trace->noise_mm2 * spacing;
+	if (decisive && excess < enough)
 		return false;
 	struct v2 in = v2_sub(run_point(&back, 1.0f), run_point(&back, 0.4f));
 	struct v2 out = v2_sub(run_point(&on, 0.6f), run_point(&on, 0.0f));
-	return v2_dot(v2_normalize(in), v2_normalize(out)) < CORNER_COSINE;
+	return v2_dot(v2_normalize(in), v2_normalize(out)) <
+	       (decisive || trace->noise_mm2 < STRONG_TREMOR_MM2 ? CORNER_COSINE
+								 : DOUBTFUL_CORNER_COSINE);
 }
 
 static bool is_corner(const struct stretch *before, const struct stretch *after,
@@ -196,28 +222,24 @@ static void align_handles(struct stretch *before, struct stretch *after)
 	after->handle[0] = v2_scale(along, v2_dot(out, along));
 }
 
-static void add_point(struct piece *piece, struct v2 p, bool corner)
+/* Adds the points of stretch k, its end left to the next. False: there is no room. */
+static bool draw_stretch(struct piece *piece, const struct path *path, int k, float step_mm)
 {
-	MUST(piece->point_count < OUTLINE_POINTS_MAX);
-	piece->point_mm[piece->point_count] = p;
-	piece->corner[piece->point_count] = corner;
-	piece->point_count++;
-}
-
-static void draw_stretch(struct piece *piece, const struct stretch *stretch, struct v2 end,
-			 float step_mm)
-{
-	add_point(piece, stretch->start, stretch->corner);
-	if (stretch->straight)
-		return;
+	const struct stretch *stretch = &path->stretch[k];
+	int steps = stretch->straight ? 1 : 3 + (int)(stretch->run.length_mm / step_mm);
+	if (piece->point_count + steps > OUTLINE_POINTS_MAX)
+		return false;
 	struct v2 a = stretch->start, b = v2_add(a, stretch->handle[0]);
-	struct v2 c = v2_add(end, stretch->handle[1]);
-	int steps = 3 + (int)(stretch->run.length_mm / step_mm);
-	for (int k = 1; k < steps; k++) {
-		float u = (float)k / (float)steps;
+	struct v2 end = stretch_end(path, k), c = v2_add(end, stretch->handle[1]);
+	for (int i = 0; i < steps; i++) {
+		float u = (float)i / (float)steps;
 		struct v2 ab = v2_lerp(a, b, u), bc = v2_lerp(b, c, u), cd = v2_lerp(c, end, u);
-		add_point(piece, v2_lerp(v2_lerp(ab, bc, u), v2_lerp(bc, cd, u), u), false);
+		piece->point_mm[piece->point_count] = v2_lerp(v2_lerp(ab, bc, u),
+							      v2_lerp(bc, cd, u), u);
+		piece->corner[piece->point_count] = i == 0 && stretch->corner;
+		piece->point_count++;
 	}
+	return true;
 }
 
 /* A round piece has no corners, but edges are what gets sewn: its four extremes serve. */
@@ -266,55 +288,69 @@ static void settle_outline(struct piece *piece)
 	*piece = turned;
 }
 
-static void make_stretches(struct stretch *stretch, const struct runs *runs,
-			   const struct trace *trace)
+/* Lines, corners, joints and curves of all runs. */
+static void path_make(struct path *path, const struct runs *runs, const struct trace *trace)
 {
-	int count = runs->count;
-	for (int k = 0; k < count; k++) {
-		struct stretch *at = &stretch[k];
-		*at = (struct stretch){.run = runs->run[k]};
+	int inner = path->closed ? 0 : 1; /* joint 0 of an open path is given */
+	path->count = runs->count;
+	for (int k = 0; k < path->count; k++) {
+		struct stretch *at = &path->stretch[k];
+		at->run = runs->run[k];
 		at->straight = is_straight(&at->run, trace);
 		fit_line(at, trace);
 	}
-	for (int k = 0; k < count; k++)
-		stretch[k].corner =
-			is_corner(&stretch[k > 0 ? k - 1 : count - 1], &stretch[k], trace);
-	for (int k = 0; k < count; k++)
-		stretch[k].start = joint_point(&stretch[k > 0 ? k - 1 : count - 1], &stretch[k]);
-	for (int k = 0; k < count; k++)
-		fit_curve(&stretch[k], stretch[k + 1 < count ? k + 1 : 0].start, trace);
-	for (int k = 0; k < count; k++)
-		if (!stretch[k].corner)
-			align_handles(&stretch[k > 0 ? k - 1 : count - 1], &stretch[k]);
+	for (int k = inner; k < path->count; k++)
+		path->stretch[k].corner = is_corner(stretch_before(path, k), &path->stretch[k],
+						    trace);
+	for (int k = inner; k < path->count; k++)
+		path->stretch[k].start = joint_point(stretch_before(path, k), &path->stretch[k],
+						     sqrtf(trace->noise_mm2));
+	for (int k = 0; k < path->count; k++)
+		fit_curve(&path->stretch[k], stretch_end(path, k), trace);
+	for (int k = inner; k < path->count; k++)
+		if (!path->stretch[k].corner)
+			align_handles(stretch_before(path, k), &path->stretch[k]);
 }
 
-const char *outline_make(struct piece *piece, const struct runs *runs, const struct trace *trace)
+static bool path_draw(struct piece *piece, const struct path *path, const struct trace *trace)
 {
-	struct stretch stretch[RUNS_MAX];
-	int count = runs->count;
-	make_stretches(stretch, runs, trace);
-	piece->point_count = 0;
-	piece->inside_up = false;
-	piece->turn_rad = 0.0f;
 	float step = float_max(CURVE_STEP_MM, trace->s_mm[trace->count] / 240.0f);
-	for (int k = 0; k < count; k++)
-		draw_stretch(piece, &stretch[k], stretch[k + 1 < count ? k + 1 : 0].start, step);
-	if (piece_edge_count(piece) == 0)
-		corners_at_extremes(piece);
-	settle_outline(piece);
-	return piece_fault(piece);
+	for (int k = 0; k < path->count; k++)
+		if (!draw_stretch(piece, path, k, step))
+			return false;
+	return true;
+}
+
+bool outline_add(struct piece *piece, const struct runs *runs, const struct trace *trace,
+		 struct v2 start, struct v2 end)
+{
+	struct path path = {.closed = false, .end = end};
+	path.stretch[0].start = start;
+	path.stretch[0].corner = true;
+	path_make(&path, runs, trace);
+	return path_draw(piece, &path, trace);
 }
 
 const char *piece_from_stroke(struct piece *piece, const struct v2 *stroke_mm, int count)
 {
 	struct trace trace;
 	struct runs runs;
+	struct path path = {.closed = true};
 	struct piece made = *piece;
 	const char *fault = trace_read(&trace, stroke_mm, count);
 	if (fault)
 		return fault;
 	runs_find(&runs, &trace);
-	fault = outline_make(&made, &runs, &trace);
+	path_make(&path, &runs, &trace);
+	made.point_count = 0;
+	made.inside_up = false;
+	made.turn_rad = 0.0f;
+	if (!path_draw(&made, &path, &trace))
+		return "the outline is too intricate: draw it simpler";
+	if (piece_edge_count(&made) == 0)
+		corners_at_extremes(&made);
+	settle_outline(&made);
+	fault = piece_fault(&made);
 	if (!fault)
 		*piece = made;
 	return fault;

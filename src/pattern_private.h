@@ -1,6 +1,6 @@
 /* Inside the reading of a freehand loop: the trace, its runs, the outline.
  *
- *   stroke --trace_read--> trace --runs_find--> runs --outline_make--> piece
+ *   stroke --trace_read--> trace --runs_find--> runs --path_make, path_draw--> piece
  */
 #ifndef PATTERN_PRIVATE_H
 #define PATTERN_PRIVATE_H
@@ -12,13 +12,16 @@ enum {
 	RUNS_MAX = 48, /* between corners and smooth joints */
 };
 
-/* A closed line, sampled. `raw` is what the hand did (averaged over a few reports when there are
- * more than TRACE_SAMPLES_MAX), `smooth` the same without its tremor; s_mm measures along it. */
+/* A line, sampled, closed unless said otherwise. `raw` is what the hand did (averaged over a few
+ * reports when there are more than TRACE_SAMPLES_MAX), `smooth` the same without its tremor; s_mm
+ * measures along it. */
 struct trace {
+	bool open; /* an open line: its last sample does not lead to its first */
 	int count;
 	struct v2 raw_mm[TRACE_SAMPLES_MAX];
 	struct v2 smooth_mm[TRACE_SAMPLES_MAX];
 	float s_mm[TRACE_SAMPLES_MAX + 1]; /* s_mm[count]: all round */
+	float spacing_mm;                  /* from one report of the pen to the next */
 	float noise_mm2;                   /* variance of raw about the true line, an axis */
 };
 
@@ -39,6 +42,11 @@ struct runs {
 /* NULL, or why the stroke is no outline. Counter-clockwise afterwards. */
 const char *trace_read(struct trace *trace, const struct v2 *stroke_mm, int count);
 
+/* The same for a line that need not come back; it keeps its direction. */
+const char *trace_read_open(struct trace *trace, const struct v2 *stroke_mm, int count);
+
+void trace_reverse(struct trace *trace);
+
 /* Distance along the trace from sample a to sample b (>= a), which may pass the end. */
 float trace_distance_mm(const struct trace *trace, int a, int b);
 
@@ -50,8 +58,11 @@ struct v2 run_point(const struct run *run, float u);
 
 /* The division into runs that explains the trace best for a fixed price a run. */
 void runs_find(struct runs *runs, const struct trace *trace);
+void runs_find_open(struct runs *runs, const struct trace *trace);
 
-/* Corner points by intersection, straight runs straight, the others as Bezier curves. */
-const char *outline_make(struct piece *piece, const struct runs *runs, const struct trace *trace);
+/* Adds the points of an open trace to an outline: from `start`, a corner, up to but without `end`.
+ * False: there is no room. */
+bool outline_add(struct piece *piece, const struct runs *runs, const struct trace *trace,
+		 struct v2 start, struct v2 end);
 
 #endif

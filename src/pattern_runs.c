@@ -8,12 +8,13 @@
 
 enum { NODES_MAX = 200, RUN_NODES_MIN = 3 };
 
-/* The price of a run: a hand's slow wobble, in proportion to the drawing, and what eight more
- * coefficients win from pure noise. */
+/* The price of a run: a hand's slow wobble, in proportion to the drawing, what eight more
+ * coefficients win from pure noise, and the bevel that a fast pen makes of a corner. */
 #define WOBBLE_SHARE (1.0f / 900.0f) /* of the outline's length */
 #define WOBBLE_SPAN (1.0f / 16.0f)
-#define NOISE_PRICE 14.0f
-#define CURVE_PRICE 2.5 /* of a straight run: it has twice the coefficients */
+#define NOISE_PRICE 18.0f
+#define BEVEL_PRICE 0.1f /* reports this far apart cut corners off */
+#define CURVE_PRICE 2.0  /* of a straight run: it has twice the coefficients */
 
 /* Running sums of a weighted cubic fit in t = distance / scale from the run's start. */
 struct sums {
@@ -126,50 +127,69 @@ double run_price_mm3(const struct trace *trace)
 	float wobble = WOBBLE_SHARE * length;
 	float spacing = length / (float)trace->count;
 	return (double)(wobble * wobble * WOBBLE_SPAN * length +
-			NOISE_PRICE * trace->noise_mm2 * spacing);
+			NOISE_PRICE * trace->noise_mm2 * spacing +
+			BEVEL_PRICE * trace->spacing_mm * trace->spacing_mm * trace->spacing_mm);
 }
 
-/* The cheapest division of the loop cut open at sample `start`. Returns the number of cuts;
- * cut[0] = start. */
-static int divide(const struct trace *trace, int start, int cut[RUNS_MAX])
-{
-	double best[NODES_MAX + 1], price = run_price_mm3(trace);
+/* The table of the dynamic program: the cheapest way to each node. */
+struct division {
+	int start, span; /* samples start .. start + span; a loop cut open: span = count */
+	int nodes;
+	double price;
+	double best[NODES_MAX + 1];
 	int from[NODES_MAX + 1], runs[NODES_MAX + 1];
-	int nodes = int_min(NODES_MAX, trace->count);
-	for (int j = 0; j <= nodes; j++) {
-		best[j] = j == 0 ? 0.0 : 1e300;
-		from[j] = runs[j] = 0;
-	}
-	for (int i = 0; i < nodes; i++) {
-		if (best[i] >= 1e300 || runs[i] >= RUNS_MAX)
+};
+
+static int node_sample(const struct division *division, int node)
+{
+	return division->start + node * division->span / division->nodes;
+}
+
+/* Tries one run from node i to every later node. */
+static void extend_from(struct division *division, const struct trace *trace, int i)
+{
+	struct sums sums = {0};
+	int shift = node_sample(division, i) >= trace->count ? trace->count : 0;
+	int first = node_sample(division, i) - shift, at = first;
+	for (int j = i + 1; j <= division->nodes; j++) {
+		int last = node_sample(division, j) - shift;
+		for (; at <= last; at++)
+			sums_sample(&sums, trace, first, at);
+		if (j - i < RUN_NODES_MIN)
 			continue;
-		struct sums sums = {0};
-		int first = start + i * trace->count / nodes, at = first;
-		for (int j = i + 1; j <= nodes; j++) {
-			int last = start + j * trace->count / nodes;
-			for (; at <= last; at++)
-				sums_sample(&sums, trace, wrap_index(trace, first),
-					    wrap_index(trace, first) + at - first);
-			if (j - i < RUN_NODES_MIN)
-				continue;
-			int base = wrap_index(trace, first);
-			double span = (double)trace_distance_mm(trace, base, base + last - first) /
-				      (double)trace->s_mm[trace->count];
-			double x[4], y[4], rest[4];
-			sums_solve(&sums, span > 1e-6 ? span : 1e-6, x, y, rest);
-			double curve = rest[3] + CURVE_PRICE * price, line = rest[1] + price;
-			double cost = best[i] + (line < curve ? line : curve);
-			if (cost < best[j]) {
-				best[j] = cost;
-				from[j] = i;
-				runs[j] = runs[i] + 1;
-			}
+		double length = (double)trace_distance_mm(trace, first, last) /
+				(double)trace->s_mm[trace->count];
+		double x[4], y[4], rest[4];
+		sums_solve(&sums, length > 1e-6 ? length : 1e-6, x, y, rest);
+		double curve = rest[3] + CURVE_PRICE * division->price;
+		double line = rest[1] + division->price;
+		double cost = division->best[i] + (line < curve ? line : curve);
+		if (cost < division->best[j]) {
+			division->best[j] = cost;
+			division->from[j] = i;
+			division->runs[j] = division->runs[i] + 1;
 		}
 	}
-	int count = runs[nodes];
+}
+
+/* The cheapest division. Returns the number of runs; cut[k] is where run k starts. */
+static int divide(const struct trace *trace, int start, int span, int cut[RUNS_MAX])
+{
+	struct division division = {.start = start,
+				    .span = span,
+				    .nodes = int_min(NODES_MAX, span),
+				    .price = run_price_mm3(trace)};
+	for (int j = 1; j <= division.nodes; j++)
+		division.best[j] = 1e300;
+	for (int i = 0; i < division.nodes; i++)
+		if (division.best[i] < 1e300 && division.runs[i] < RUNS_MAX)
+			extend_from(&division, trace, i);
+	int count = division.runs[division.nodes], node = division.nodes;
 	MUST(count >= 1 && count <= RUNS_MAX);
-	for (int j = from[nodes], k = count - 1; k >= 0; j = from[j], k--)
-		cut[k] = wrap_index(trace, start + j * trace->count / nodes);
+	for (int k = count - 1; k >= 0; k--) {
+		node = division.from[node];
+		cut[k] = wrap_index(trace, node_sample(&division, node));
+	}
 	return count;
 }
 
@@ -192,33 +212,46 @@ static float turn_cosine(const struct trace *trace, const int *cut, int count, i
 	return v2_dot(v2_normalize(in), v2_normalize(out));
 }
 
-/* Moves cut k to the sample where the runs on both sides cost least together. */
-static void refine_cut(const struct trace *trace, int *cut, int count, int k)
+/* What a run costs with its price, as a line or as a curve. */
+static float run_score(const struct run *run, float price)
 {
-	int previous = k > 0 ? k - 1 : count - 1;
-	int first = cut[previous], middle = run_end(trace, cut, count, previous);
-	int end = run_end(trace, cut, count, k) - cut[k] + middle;
-	int reach = trace->count / NODES_MAX + 1;
-	float best = 1e30f;
-	int best_at = middle;
+	return float_min(run->line_cost_mm3, run->cost_mm3 + ((float)CURVE_PRICE - 1.0f) * price);
+}
+
+/* Of the samples near `middle`, the one where runs first .. it .. end cost least together. */
+static int best_cut(const struct trace *trace, int first, int middle, int end)
+{
+	int reach = 2 * (trace->count / NODES_MAX + 1), best_at = middle;
+	float best = 1e30f, price = (float)run_price_mm3(trace);
 	for (int at = int_max(middle - reach, first + 3); at <= int_min(middle + reach, end - 3);
 	     at++) {
 		struct run before, after;
 		int base = wrap_index(trace, at);
 		run_fit(&before, trace, first, at);
 		run_fit(&after, trace, base, base + end - at);
-		if (before.cost_mm3 + after.cost_mm3 < best) {
-			best = before.cost_mm3 + after.cost_mm3;
+		float score = run_score(&before, price) + run_score(&after, price);
+		if (score < best) {
+			best = score;
 			best_at = at;
 		}
 	}
-	cut[k] = wrap_index(trace, best_at);
+	return best_at;
+}
+
+static void refine_loop(const struct trace *trace, int *cut, int count)
+{
+	for (int k = 0; k < count && count > 1; k++) {
+		int previous = k > 0 ? k - 1 : count - 1;
+		int middle = run_end(trace, cut, count, previous);
+		int end = run_end(trace, cut, count, k) - cut[k] + middle;
+		cut[k] = wrap_index(trace, best_cut(trace, cut[previous], middle, end));
+	}
 }
 
 void runs_find(struct runs *runs, const struct trace *trace)
 {
 	int cut[RUNS_MAX];
-	int count = divide(trace, 0, cut);
+	int count = divide(trace, 0, trace->count, cut);
 	/* Where the pen came down need not be a corner: cut the loop open at its sharpest. */
 	int sharpest = 0;
 	float least = 2.0f;
@@ -229,10 +262,21 @@ void runs_find(struct runs *runs, const struct trace *trace)
 			sharpest = k;
 		}
 	}
-	count = divide(trace, cut[sharpest], cut);
-	for (int k = 0; k < count && count > 1; k++)
-		refine_cut(trace, cut, count, k);
+	count = divide(trace, cut[sharpest], trace->count, cut);
+	refine_loop(trace, cut, count);
 	runs->count = count;
 	for (int k = 0; k < count; k++)
 		run_fit(&runs->run[k], trace, cut[k], run_end(trace, cut, count, k));
+}
+
+void runs_find_open(struct runs *runs, const struct trace *trace)
+{
+	int cut[RUNS_MAX + 1], last = trace->count - 1;
+	int count = divide(trace, 0, last, cut);
+	cut[count] = last;
+	for (int k = 1; k < count; k++)
+		cut[k] = best_cut(trace, cut[k - 1], cut[k], cut[k + 1]);
+	runs->count = count;
+	for (int k = 0; k < count; k++)
+		run_fit(&runs->run[k], trace, cut[k], cut[k + 1]);
 }

@@ -2,7 +2,8 @@
 #include "pattern_private.h"
 
 enum {
-	LOOP_MM_MIN = 80,     /* a shorter loop was a tap or a slip */
+	LOOP_MM_MIN = 80, /* a shorter loop was a tap or a slip */
+	LINE_MM_MIN = 15,
 	SPARSE_DIVISOR = 300, /* of the path: longer gaps between samples are filled */
 };
 
@@ -174,13 +175,20 @@ static float smooth_area(const struct trace *trace)
 	return 0.5f * twice;
 }
 
-static void reverse_trace(struct trace *trace)
+static void reverse_points(struct v2 *point, int count)
 {
-	for (int i = 0, k = trace->count - 1; i < k; i++, k--) {
-		struct v2 swap = trace->raw_mm[i];
-		trace->raw_mm[i] = trace->raw_mm[k];
-		trace->raw_mm[k] = swap;
+	for (int i = 0, k = count - 1; i < k; i++, k--) {
+		struct v2 swap = point[i];
+		point[i] = point[k];
+		point[k] = swap;
 	}
+}
+
+void trace_reverse(struct trace *trace)
+{
+	reverse_points(trace->raw_mm, trace->count);
+	reverse_points(trace->smooth_mm, trace->count);
+	measure_along(trace);
 }
 
 static bool all_finite(const struct v2 *point, int count)
@@ -191,23 +199,49 @@ static bool all_finite(const struct v2 *point, int count)
 	return true;
 }
 
-const char *trace_read(struct trace *trace, const struct v2 *stroke_mm, int count)
+static const char *check_stroke(const struct v2 *stroke_mm, int count)
 {
 	if (count < 8)
-		return "too short: draw the whole outline of a piece in one line";
+		return "too short: draw the whole line in one go";
 	if (!all_finite(stroke_mm, count))
 		return "the line leaves the sheet";
+	return NULL;
+}
+
+const char *trace_read_open(struct trace *trace, const struct v2 *stroke_mm, int count)
+{
+	const char *fault = check_stroke(stroke_mm, count);
+	if (fault)
+		return fault;
+	load(trace, stroke_mm, count, path_length(stroke_mm, count));
+	if (trace->count < 8)
+		return "too short: draw a longer line";
+	smooth_trace(trace, smoothing_width(trace->noise_mm2, 2.0f), false);
+	trace->open = true;
+	measure_along(trace);
+	trace->spacing_mm = trace->s_mm[trace->count] / (float)count;
+	return trace->s_mm[trace->count] >= (float)LINE_MM_MIN ? NULL
+							       : "too short: draw a longer line";
+}
+
+const char *trace_read(struct trace *trace, const struct v2 *stroke_mm, int count)
+{
+	const char *fault = check_stroke(stroke_mm, count);
+	if (fault)
+		return fault;
 	float length = path_length(stroke_mm, count);
 	if (length < (float)LOOP_MM_MIN)
 		return "too small: draw the outline larger";
 	load(trace, stroke_mm, count, length);
 	if (trace->count < 8)
-		return "too short: draw the whole outline of a piece in one line";
+		return "too short: draw the whole line in one go";
+	trace->open = false;
 	smooth_trace(trace, smoothing_width(trace->noise_mm2, 3.0f), false);
 	measure_along(trace);
 	int from = 0, to = trace->count - 1;
 	float gap = find_closure(trace, &from, &to);
 	float kept = trace->s_mm[to] - trace->s_mm[from];
+	trace->spacing_mm = trace->s_mm[trace->count - 1] / (float)count;
 	if (gap > GAP_SHARE_MAX * kept)
 		return "the line is open: end it where it began";
 	if (kept < (float)LOOP_MM_MIN)
@@ -215,11 +249,9 @@ const char *trace_read(struct trace *trace, const struct v2 *stroke_mm, int coun
 	close_trace(trace, from, to, gap);
 	float rest_mm = float_clamp(kept / 1000.0f, 0.5f, 3.0f);
 	smooth_trace(trace, smoothing_width(trace->noise_mm2, rest_mm), true);
-	if (smooth_area(trace) < 0.0f) {
-		reverse_trace(trace);
-		smooth_trace(trace, smoothing_width(trace->noise_mm2, rest_mm), true);
-	}
 	measure_along(trace);
+	if (smooth_area(trace) < 0.0f)
+		trace_reverse(trace);
 	return NULL;
 }
 
