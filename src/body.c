@@ -1,4 +1,6 @@
 /* The body as a mesh: checks, neighbours, normals, and the tree for exact queries. */
+#include "body.h"
+
 #include "body_private.h"
 
 enum { NODES_MAX = BODY_TRIANGLES_MAX, LEAF_TRIANGLES = 4 };
@@ -19,17 +21,7 @@ void body_init(struct body *body, struct arena *arena)
 	struct body_scratch *scratch = ARENA_ARRAY(arena, struct body_scratch, 1);
 	scratch->centre_m = ARENA_ARRAY(arena, struct v3, BODY_TRIANGLES_MAX);
 	scratch->fill = ARENA_ARRAY(arena, int, BODY_VERTICES_MAX);
-	scratch->way_first = ARENA_ARRAY(arena, int, BODY_VERTICES_MAX + 2);
-	scratch->way_to = ARENA_ARRAY(arena, int, 6 * BODY_TRIANGLES_MAX);
-	scratch->way_m = ARENA_ARRAY(arena, float, 6 * BODY_TRIANGLES_MAX);
-	scratch->heap = ARENA_ARRAY(arena, int, BODY_VERTICES_MAX);
-	scratch->heap_place = ARENA_ARRAY(arena, int, BODY_VERTICES_MAX);
-	scratch->distance_m = ARENA_ARRAY(arena, float, BODY_VERTICES_MAX);
-	scratch->nearest_m = ARENA_ARRAY(arena, float, BODY_VERTICES_MAX);
-	scratch->mean_m = ARENA_ARRAY(arena, float, BODY_VERTICES_MAX);
-	scratch->order = ARENA_ARRAY(arena, int, BODY_VERTICES_MAX);
-	scratch->group = ARENA_ARRAY(arena, int, BODY_VERTICES_MAX);
-	scratch->tip_of = ARENA_ARRAY(arena, int, BODY_VERTICES_MAX);
+	scratch->parts = parts_init(arena);
 	body->scratch = scratch;
 }
 
