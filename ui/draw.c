@@ -161,7 +161,7 @@ void lines_draw(struct draw *draw, const struct ui *ui, const struct session *se
 {
 	ribbons_begin(draw);
 	sprites_begin(draw);
-	trim_add(draw, session);
+	trim_add(draw, ui, session);
 	ribbons_draw(draw, 0.0035f);
 	ribbons_begin(draw);
 	marks_add(draw, ui, session);

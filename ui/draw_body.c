@@ -14,11 +14,15 @@ bool body_open(struct draw *draw, char fault[200])
 	body->open_sky = calloc(BODY_VERTICES_MAX, sizeof *body->open_sky);
 	glGenBuffers(1, &body->vertices);
 	glGenBuffers(1, &body->indices);
+	body->caster_normal = calloc(BODY_VERTICES_MAX, sizeof *body->caster_normal);
+	body->caster_open = calloc(BODY_VERTICES_MAX, sizeof *body->caster_open);
+	body->open_next = calloc(BODY_VERTICES_MAX, sizeof *body->open_next);
 	body->caster_m = calloc(BODY_VERTICES_MAX, sizeof *body->caster_m);
 	glGenBuffers(1, &body->caster_vertices);
 	glGenBuffers(1, &body->caster_indices);
 	body->stale = true;
-	return body->vertex && body->caster_m && body->index && body->open_sky &&
+	return body->vertex && body->caster_m && body->caster_normal && body->caster_open &&
+	       body->open_next && body->index && body->open_sky &&
 	       surface_open(&body->program, false, false, fault);
 }
 
@@ -27,12 +31,15 @@ void body_release(struct draw *draw)
 	free(draw->body.vertex);
 	free(draw->body.index);
 	free(draw->body.caster_m);
+	free(draw->body.caster_normal);
+	free(draw->body.caster_open);
+	free(draw->body.open_next);
 	free(draw->body.open_sky);
 }
 
 /* How open a place is, from the distance field of the body alone (after Evans, "Fast Approximations
  * for Global Illumination on Dynamic Scenes", 2006): away from a free surface the distance grows as
- * fast as one walks; near another limb it does not. Smooth, and a handful of queries a vertex. */
+ * fast as one walks; near another limb it does not. Smooth, with a handful of queries. */
 static float openness(const struct body *body, struct v3 position_m, struct v3 direction)
 {
 	static const float step_m[3] = {0.025f, 0.07f, 0.16f};
@@ -47,15 +54,46 @@ static float openness(const struct body *body, struct v3 position_m, struct v3 d
 	return 1.0f - closed;
 }
 
-static void openness_bake(struct draw_body *draw, const struct body *body)
+/* A coarse body is asked, and its answer spread: the price depends on the size of the figure, not
+ * on the fineness of its mesh. Also fills caster_m and order.rank for the caster. */
+static void openness_bake(struct draw *draw, const struct body *body)
 {
-	for (int i = 0; i < body->vertex_count; i++) {
-		struct v3 normal = body->normal[i], position_m = body->position_m[i];
+	struct draw_body *own = &draw->body;
+	const int *rank = draw->order.rank;
+	int count = mesh_coarsen(&draw->order, body->position_m, body->vertex_count, caster_cell_m,
+				 own->caster_m);
+	memset(own->caster_normal, 0, (size_t)count * sizeof *own->caster_normal);
+	for (int v = 0; v < body->vertex_count; v++)
+		own->caster_normal[rank[v]] = v3_add(own->caster_normal[rank[v]], body->normal[v]);
+	for (int c = 0; c < count; c++) {
+		struct v3 normal = v3_normalize(own->caster_normal[c]);
 		struct v3 upward = v3_normalize((struct v3){normal.x, normal.y + 0.55f, normal.z});
-		float open = 0.6f * openness(body, position_m, normal) +
-			     0.4f * openness(body, position_m, upward);
+		float open = 0.6f * openness(body, own->caster_m[c], normal) +
+			     0.4f * openness(body, own->caster_m[c], upward);
 		/* A free convex surface answers about 0.95; a flat one exactly 1. */
-		draw->open_sky[i] = float_clamp((open - 0.25f) * 1.45f, 0.12f, 1.0f);
+		own->caster_open[c] = float_clamp((open - 0.25f) * 1.45f, 0.12f, 1.0f);
+	}
+	for (int v = 0; v < body->vertex_count; v++)
+		own->open_sky[v] = own->caster_open[rank[v]];
+	own->caster_vertex_count = count;
+}
+
+/* Each vertex becomes the mean of itself and its triangles' corners: the cells' steps fade. */
+static void openness_smooth(struct draw_body *own, const struct body *body)
+{
+	for (int pass = 0; pass < 3; pass++) {
+		for (int v = 0; v < body->vertex_count; v++) {
+			float sum = own->open_sky[v];
+			int count = 1;
+			for (int s = body->star_first[v]; s < body->star_first[v + 1]; s++)
+				for (int k = 0; k < 3; k++) {
+					sum += own->open_sky[body->triangle[body->star[s]].v[k]];
+					count++;
+				}
+			own->open_next[v] = sum / (float)count;
+		}
+		memcpy(own->open_sky, own->open_next,
+		       (size_t)body->vertex_count * sizeof *own->open_sky);
 	}
 }
 
@@ -68,8 +106,6 @@ static void buffer_fill(GLenum target, GLuint buffer, size_t size, const void *d
 static void caster_upload(struct draw *draw, const struct body *body)
 {
 	struct draw_body *own = &draw->body;
-	int count = mesh_coarsen(&draw->order, body->position_m, body->vertex_count, caster_cell_m,
-				 own->caster_m);
 	own->caster_count = 0;
 	for (int t = 0; t < body->triangle_count; t++) {
 		const int *v = body->triangle[t].v, *rank = draw->order.rank;
@@ -80,8 +116,8 @@ static void caster_upload(struct draw *draw, const struct body *body)
 		own->index[own->caster_count++] = (uint16_t)b;
 		own->index[own->caster_count++] = (uint16_t)c;
 	}
-	buffer_fill(GL_ARRAY_BUFFER, own->caster_vertices, (size_t)count * sizeof *own->caster_m,
-		    own->caster_m);
+	buffer_fill(GL_ARRAY_BUFFER, own->caster_vertices,
+		    (size_t)own->caster_vertex_count * sizeof *own->caster_m, own->caster_m);
 	buffer_fill(GL_ELEMENT_ARRAY_BUFFER, own->caster_indices,
 		    (size_t)own->caster_count * sizeof *own->index, own->index);
 }
@@ -90,7 +126,9 @@ void body_upload(struct draw *draw, const struct body *body)
 {
 	struct draw_body *own = &draw->body;
 	MUST(body->vertex_count <= BODY_VERTICES_MAX);
-	openness_bake(own, body);
+	openness_bake(draw, body);
+	openness_smooth(own, body);
+	caster_upload(draw, body);
 	mesh_order(&draw->order, body->position_m, body->vertex_count, body->triangle,
 		   body->triangle_count);
 	for (int i = 0; i < body->vertex_count; i++) {
@@ -109,7 +147,6 @@ void body_upload(struct draw *draw, const struct body *body)
 		    (size_t)body->vertex_count * sizeof *own->vertex, own->vertex);
 	buffer_fill(GL_ELEMENT_ARRAY_BUFFER, own->indices,
 		    (size_t)own->index_count * sizeof *own->index, own->index);
-	caster_upload(draw, body);
 	room_floor_changed(draw, body);
 	own->hash = body->hash;
 	own->stale = false;

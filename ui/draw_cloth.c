@@ -60,11 +60,13 @@ bool cloth_open(struct draw *draw, char fault[200])
 	cloth->edge_table = calloc(EDGE_TABLE_SIZE, sizeof *cloth->edge_table);
 	cloth->edge_use = calloc(GARMENT_EDGES_MAX * 2, sizeof *cloth->edge_use);
 	cloth->stitched = calloc(vertices, 1);
+	cloth->seam = calloc(vertices, 1);
 	cloth->caster = calloc(vertices, sizeof *cloth->caster);
 	glGenBuffers(1, &cloth->caster_indices);
-	if (!cloth->caster || !cloth->stitched || !cloth->vertex || !cloth->rest || !cloth->index ||
-	    !cloth->normal || !cloth->crease || !cloth->born || !cloth->seen_rest_m ||
-	    !cloth->seen_triangle || !cloth->rim || !cloth->edge_table || !cloth->edge_use)
+	if (!cloth->seam || !cloth->caster || !cloth->stitched || !cloth->vertex || !cloth->rest ||
+	    !cloth->index || !cloth->normal || !cloth->crease || !cloth->born ||
+	    !cloth->seen_rest_m || !cloth->seen_triangle || !cloth->rim || !cloth->edge_table ||
+	    !cloth->edge_use)
 		return false;
 	glGenBuffers(1, &cloth->moving);
 	glGenBuffers(1, &cloth->fixed);
@@ -88,6 +90,7 @@ void cloth_release(struct draw *draw)
 	free(cloth->edge_table);
 	free(cloth->edge_use);
 	free(cloth->stitched);
+	free(cloth->seam);
 	free(cloth->caster);
 }
 

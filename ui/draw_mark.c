@@ -3,6 +3,7 @@
 #include "draw_private.h"
 
 static const float mark_lift_m = 0.002f, pin_length_m = 0.024f;
+static const float ghost_beside_m = 0.78f, ghost_above_m = 0.25f;
 
 /* ---- marks and pins that ride on the garment ---- */
 
@@ -224,6 +225,32 @@ static void pull_add(struct draw *draw, const struct ui *ui, const struct sessio
 	ribbons_line(draw, point_m, NULL, 2, 0.0f, &line);
 }
 
+/* Step 1: the selected piece stands beside the figure at its true size, as a drawn line. */
+static void ghost_add(struct draw *draw, const struct ui *ui, const struct session *session)
+{
+	const struct pattern *pattern = &session->document.pattern;
+	struct v3 point_m[OUTLINE_POINTS_MAX + 1];
+	struct stroke line = {LOOK_INK_GREY, 0.55f, 1.3f * draw->px, DASH_PULL, 14.0f * draw->px};
+	if (ui->piece < 0 || ui->piece >= PIECES_MAX || !pattern->piece[ui->piece].used)
+		return;
+	const struct piece *piece = &pattern->piece[ui->piece];
+	struct v2 low = piece->point_mm[0], high = low;
+	for (int i = 1; i < piece->point_count; i++) {
+		struct v2 p = piece->point_mm[i];
+		low = (struct v2){float_min(low.x, p.x), float_min(low.y, p.y)};
+		high = (struct v2){float_max(high.x, p.x), float_max(high.y, p.y)};
+	}
+	struct v2 middle_mm = v2_lerp(low, high, 0.5f);
+	struct v3 middle_m = v3_mad(ui->view.centre_m, ui->view.turn.row[0], ghost_beside_m);
+	middle_m.y += ghost_above_m;
+	for (int i = 0; i <= piece->point_count; i++) {
+		struct v2 p = v2_sub(piece->point_mm[i % piece->point_count], middle_mm);
+		point_m[i] = v3_mad(v3_mad(middle_m, ui->view.turn.row[0], 0.001f * p.x),
+				    ui->view.turn.row[1], 0.001f * p.y);
+	}
+	ribbons_line(draw, point_m, NULL, piece->point_count + 1, 0.0f, &line);
+}
+
 static bool in_pane(const struct rect *pane, struct v2 px)
 {
 	return px.x >= (float)pane->x && px.y >= (float)pane->y &&
@@ -232,11 +259,14 @@ static bool in_pane(const struct rect *pane, struct v2 px)
 
 void hand_add(struct draw *draw, const struct ui *ui, const struct session *session)
 {
-	uint32_t next = look_mark_style(session_next_mark(session, 1))->colour;
+	int side = ui->gesture == GESTURE_MARK_WORN ? 0 : 1;
+	uint32_t next = look_mark_style(session_next_mark(session, side))->colour;
 	if (ui->gesture == GESTURE_MARK_BODY || ui->gesture == GESTURE_MARK_WORN)
 		stroke_add(draw, ui, next);
 	if (ui->gesture == GESTURE_DRAG)
 		pull_add(draw, ui, session);
+	if (ui->step == STEP_DRAW)
+		ghost_add(draw, ui, session);
 	if (ui->pen_state == PEN_AWAY || !in_pane(&ui->view.pane, ui->pen_px))
 		return;
 	uint32_t colour = ui->step == STEP_MARK && !ui->erase       ? next

@@ -65,7 +65,9 @@ struct draw_body {
 	int index_count;
 	GLuint caster_vertices, caster_indices; /* a coarse copy that casts the shadows */
 	int caster_count;
-	struct v3 *caster_m;
+	int caster_vertex_count;
+	struct v3 *caster_m, *caster_normal;
+	float *caster_open, *open_next; /* room to bake open_sky in */
 	struct surface_program program;
 	struct body_vertex *vertex; /* BODY_VERTICES_MAX */
 	uint16_t *index;
@@ -117,6 +119,7 @@ struct draw_cloth {
 	int *edge_table;           /* hash of an edge -> edge_use */
 	struct edge_use *edge_use; /* by particles, once rims are known */
 	uint8_t *stitched;         /* per vertex: on the side of a seam that shows its stitches */
+	int8_t *seam;              /* per vertex: pattern.seam, -1: none */
 	bool rims_known, rims_welded;
 };
 
@@ -294,7 +297,7 @@ void fringe_cloth_draw(struct draw *draw, const struct session *session);
 void trim_follow(struct draw *draw, const struct session *session);
 
 /* Seams, stitches and hems of the worn garment, as ribbons. */
-void trim_add(struct draw *draw, const struct session *session);
+void trim_add(struct draw *draw, const struct ui *ui, const struct session *session);
 
 bool shadow_open(struct draw *draw, char fault[200]);
 void shadow_draw(struct draw *draw);

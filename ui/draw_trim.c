@@ -57,12 +57,16 @@ static int edges_count(struct draw_cloth *cloth, const struct garment *garment, 
 	return count;
 }
 
-/* A vertex that lies on the first side of a seam gets the topstitching. */
-static void stitched_sides(struct draw_cloth *cloth, const struct garment *garment)
+/* Which seam a vertex is part of; the first side of a seam gets the topstitching. */
+static void seams_find(struct draw_cloth *cloth, const struct garment *garment)
 {
 	memset(cloth->stitched, 0, GARMENT_VERTICES_MAX);
-	for (int i = 0; i < garment->pair_count; i++)
-		cloth->stitched[garment->pair[i].a] = 1;
+	memset(cloth->seam, -1, GARMENT_VERTICES_MAX);
+	for (int i = 0; i < garment->pair_count; i++) {
+		const struct seam_pair *pair = &garment->pair[i];
+		cloth->stitched[pair->a] = 1;
+		cloth->seam[pair->a] = cloth->seam[pair->b] = (int8_t)pair->seam;
+	}
 }
 
 static void rims_find(struct draw_cloth *cloth, const struct session *session)
@@ -83,7 +87,7 @@ static void rims_find(struct draw_cloth *cloth, const struct session *session)
 							session->cloth.particle[rim->b]);
 		rim->sewn = edge && edge->count > 1;
 	}
-	stitched_sides(cloth, garment);
+	seams_find(cloth, garment);
 	cloth->rims_known = true;
 	cloth->rims_welded = session->cloth.welded;
 }
@@ -137,7 +141,20 @@ void trim_follow(struct draw *draw, const struct session *session)
 		rims_find(cloth, session);
 }
 
-void trim_add(struct draw *draw, const struct session *session)
+/* In step 2 sewn edges light up; the selected seam most. */
+static void seam_add(struct draw *draw, const struct rim *rim, int selected)
+{
+	const struct cloth_vertex *vertex = draw->cloth.vertex;
+	int seam = int_min(draw->cloth.seam[rim->a], draw->cloth.seam[rim->b]);
+	bool chosen = seam >= 0 && seam == selected;
+	struct stroke line = {chosen ? LOOK_WRAP : LOOK_HINT_RIM, 1.0f,
+			      (chosen ? 3.2f : 2.4f) * draw->px, DASH_SOLID, 1.0f};
+	if (seam >= 0)
+		ribbons_segment(draw, vertex[rim->a].position_m, vertex[rim->b].position_m, 0.0f,
+				&line);
+}
+
+void trim_add(struct draw *draw, const struct ui *ui, const struct session *session)
 {
 	const struct draw_cloth *cloth = &draw->cloth;
 	const uint8_t *placed = session->cloth.placed;
@@ -147,5 +164,7 @@ void trim_add(struct draw *draw, const struct session *session)
 		const struct rim *rim = &cloth->rim[r];
 		if (placed[rim->a] && placed[rim->b] && placed[rim->inner])
 			rim_add(draw, rim, session->cloth.welded);
+		if (ui->step == STEP_SEW && placed[rim->a] && placed[rim->b])
+			seam_add(draw, rim, ui->seam);
 	}
 }
