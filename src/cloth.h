@@ -101,8 +101,9 @@ void cloth_restore(struct cloth *cloth, const struct garment *garment, const str
  * Returns how many were found. */
 int cloth_unfold(struct cloth *cloth);
 
-/* Pushes edges out that pass through the body. Returns how many were found. */
-int cloth_push_out(struct cloth *cloth);
+/* Pushes edges out that pass through the body, by exact queries: slice `slice` of `slices` of all
+ * triangles. Returns how many were found. */
+int cloth_push_out(struct cloth *cloth, int slice, int slices);
 
 /* Outward normals per vertex for drawing, into `normal` (vertex_count). */
 void cloth_normals(const struct cloth *cloth, struct v3 *normal);

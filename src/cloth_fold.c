@@ -4,6 +4,7 @@
 enum { SMOOTH_ROUNDS = 20, EDGE_SAMPLES = 8 };
 
 static const float fold_reach_m = 0.06f; /* a fold matters this near to the body */
+static const float behind_m = 0.25f;     /* cloth this far before a body belongs to it */
 
 static struct v3 face_normal(const struct cloth *cloth, int t)
 {
@@ -12,18 +13,20 @@ static struct v3 face_normal(const struct cloth *cloth, int t)
 	return v3_normalize(v3_cross(v3_sub(x[v[1]], x[v[0]]), v3_sub(x[v[2]], x[v[0]])));
 }
 
-/* Does the triangle's outside look at the body that it lies near? */
+/* Does the triangle's outside look at the body that it lies near, and its inside at none? (Cloth of
+ * the trunk that hangs under an arm looks at the arm, but its inside still faces the trunk.) */
 static bool faces_body(const struct cloth *cloth, int t)
 {
 	const int *v = cloth->triangle[t].v;
-	struct v3 centre = {0.0f, 0.0f, 0.0f};
+	struct v3 centre = {0.0f, 0.0f, 0.0f}, normal = face_normal(cloth, t);
 	for (int k = 0; k < 3; k++)
 		centre = v3_mad(centre, cloth->position_m[v[k]], 1.0f / 3.0f);
 	struct body_hit hit;
 	body_walk(cloth->body, centre, cloth->contact[v[0]].triangle, 16, &hit);
-	if (hit.distance_m > fold_reach_m)
+	if (hit.distance_m > fold_reach_m || v3_dot(normal, hit.normal) > -0.2f)
 		return false;
-	return v3_dot(face_normal(cloth, t), hit.normal) < -0.2f;
+	return !body_ray(cloth->body, centre, v3_scale(normal, -1.0f), &hit) ||
+	       hit.distance_m > behind_m;
 }
 
 static void flag_ring(struct cloth *cloth)
@@ -110,11 +113,11 @@ static bool push_edge(struct cloth *cloth, int a, int b)
 	return true;
 }
 
-int cloth_push_out(struct cloth *cloth)
+int cloth_push_out(struct cloth *cloth, int slice, int slices)
 {
 	int found = 0;
 	float close_m = 2.0f * cloth->garment->edge_m;
-	for (int t = 0; t < cloth->garment->triangle_count; t++)
+	for (int t = slice; t < cloth->garment->triangle_count; t += slices)
 		for (int k = 0; triangle_placed(cloth, t) && k < 3; k++) {
 			int a = cloth->triangle[t].v[k], b = cloth->triangle[t].v[(k + 1) % 3];
 			if (cloth->contact[a].distance_m < close_m)

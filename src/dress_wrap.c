@@ -198,7 +198,7 @@ static long settle(struct wrap *wrap)
 	wrap->progress++;
 	if (after < 0)
 		return cloth_sweep(cloth);
-	if (after < PUSH_ROUNDS && cloth_push_out(cloth) > 0)
+	if (after < PUSH_ROUNDS && cloth_push_out(cloth, 0, 1) > 0)
 		return cloth_sweep(cloth) + cloth->garment->triangle_count;
 	wrap->stage = WRAP_DONE;
 	cloth->worn = true;

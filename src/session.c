@@ -7,6 +7,9 @@ enum {
 	VERTICES_WANTED = 2400,
 	BUDGET_UNITS = 600000,
 	REST_FRAMES = 30, /* so many calm frames, and the cloth sleeps until something touches it */
+	COOL_FRAMES = 90, /* after the last touch momentum begins to fade */
+	SLEEP_FRAMES = 300, /* and here the cloth sleeps in any case */
+	PUSH_SLICES = 16,
 };
 
 static const float calm_m = 0.00002f; /* particles moved less than this in a frame, in the mean */
@@ -30,6 +33,7 @@ void session_init(struct session *session, struct arena *arena)
 void session_wake(struct session *session)
 {
 	session->rest_frames = 0;
+	session->untouched_frames = 0;
 }
 
 void session_release(struct session *session)
@@ -104,6 +108,7 @@ static long advance_wrap(struct session *session)
 {
 	long units = wrap_advance(&session->wrap, session->budget_units);
 	if (session->wrap.stage == WRAP_DONE) {
+		session_wake(session);
 		session->job = JOB_NONE;
 		session->cloth.settings = cloth_settings_worn();
 	}
@@ -120,6 +125,23 @@ static void note_rest(struct session *session)
 		moved += v3_distance(cloth->position_m[v], session->frame_start_m[v]);
 	bool calm = moved < calm_m * (float)count;
 	session->rest_frames = calm ? session->rest_frames + 1 : 0;
+	session->untouched_frames++;
+	if (session->drag.active || session->relaxing)
+		session->untouched_frames = 0;
+	if (session->untouched_frames >= SLEEP_FRAMES)
+		session->rest_frames = REST_FRAMES;
+}
+
+/* Cloth that nobody touches calms down: creases would tremble for ever under full momentum. */
+static struct cloth_settings settings_now(const struct session *session)
+{
+	if (session->relaxing)
+		return cloth_settings_relax();
+	struct cloth_settings settings = cloth_settings_worn();
+	int cooling = session->untouched_frames - COOL_FRAMES;
+	float warmth = 1.0f - (float)cooling / (float)(SLEEP_FRAMES - COOL_FRAMES);
+	settings.momentum *= float_clamp(warmth, 0.0f, 1.0f);
+	return settings;
 }
 
 /* The worn cloth moves by the frame's budget: first the hand, then the cloth's own shape. */
@@ -129,7 +151,7 @@ static long advance_cloth(struct session *session)
 	long units = 0;
 	memcpy(session->frame_start_m, cloth->position_m,
 	       (size_t)session->garment.vertex_count * sizeof(struct v3));
-	cloth->settings = session->relaxing ? cloth_settings_relax() : cloth_settings_worn();
+	cloth->settings = settings_now(session);
 	if (session->drag.active)
 		units += drag_move(&session->drag, session->drag_target_m);
 	for (int sweep = 0; sweep < SWEEPS_A_FRAME_MAX && units < session->budget_units; sweep++) {
@@ -137,6 +159,7 @@ static long advance_cloth(struct session *session)
 			cloth_unfold(cloth);
 		units += cloth_sweep(cloth);
 	}
+	cloth_push_out(cloth, session->frame % PUSH_SLICES, PUSH_SLICES);
 	cloth_finish(cloth);
 	note_rest(session);
 	session->strain_left = float_clamp(cloth_strain_mean(cloth) / 0.1f, 0.0f, 1.0f);
