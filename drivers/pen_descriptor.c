@@ -1,72 +1,21 @@
 /* HID report descriptors to pen layouts (Device Class Definition for HID 1.11, section 6.2.2).
  *
- *   bytes --item_next--> items --globals, locals, collections--> main items --fields--> candidates
- *   candidates (one a report id) --candidate_accept--> layouts
+ *   bytes --pen_items_next--> input items --field_add--> candidates, one a report id
+ *   candidates --candidate_accept--> layouts
  *
- * A descriptor comes from a plug that a visitor could have put there. Every table has a bound, the
- * bounds are those of the Linux kernel (include/linux/hid.h), and what exceeds them is refused.
- *
- * Descriptors lie, and these lies are known from real tablets:
- *   - the logical maximum as a negative number: `26 40 9C` means 40000. It is unsigned when the
- *     minimum is not negative (drivers/hid/hid-core.c does the same);
+ * A descriptor comes from a plug that a visitor could have put there, and descriptors lie. These
+ * lies are known from real tablets:
+ *   - the maximum as a negative number: `26 40 9C` means 40000. It is unsigned when the minimum is
+ *     not negative (drivers/hid/hid-core.c does the same);
  *   - sizes in cubic inches, or 20 metres wide: a size that no tablet has counts as not stated;
  *   - Secondary Tip Switch where the second barrel button is meant;
  *   - tablets that call themselves a mouse, with absolute X and Y and Tip Pressure.
  */
-#include "pen.h"
+#include "pen_items.h"
 
 #include <stdio.h>
 
-enum {
-	GLOBAL_STACK_MAX = 4,
-	COLLECTION_DEPTH_MAX = 32,
-	USAGE_RANGES_MAX = 256,
-	USAGES_MAX = 12288,   /* HID_MAX_USAGES */
-	FIELD_BITS_MAX = 256, /* a field of more bits is refused by the kernel */
-	REPORT_BITS_MAX = 16384 * 8,
-	CANDIDATES_MAX = 32,
-};
-
-enum {
-	PAGE_DESKTOP = 0x01,
-	PAGE_BUTTON = 0x09,
-	PAGE_DIGITIZER = 0x0d,
-	PAGE_WACOM = 0xff0d, /* the digitizer's numbers on a page of Wacom's own */
-};
-
-#define USAGE(page, id) ((uint32_t)(page) << 16 | (uint32_t)(id))
-
-/* What collections say about the fields within. */
-enum role {
-	ROLE_OUTSIDE, /* no application collection is open: what is in there belongs to nothing */
-	ROLE_NONE,
-	ROLE_MOUSE, /* Generic Desktop: Mouse, Pointer */
-	ROLE_PEN,   /* Digitizer or Pen as an application, a Stylus within any but touch */
-	ROLE_TOUCH, /* Touch Screen, Touch Pad, Finger, Configuration: never a pen */
-};
-
-struct item {
-	int type, tag, size; /* type 0 main, 1 global, 2 local, 3 long */
-	uint32_t value;      /* as it stands */
-	int32_t signed_value;
-};
-
-struct globals {
-	uint32_t page;
-	int32_t logical_minimum, logical_maximum;
-	uint32_t logical_maximum_raw;
-	int32_t physical_minimum, physical_maximum;
-	uint32_t physical_maximum_raw;
-	uint32_t unit;
-	int unit_exponent;
-	uint32_t report_size, report_count;
-	int report_id;
-};
-
-struct usage_range {
-	uint32_t first, last;
-	bool extended; /* four bytes: the page is part of the usage */
-};
+enum { CANDIDATES_MAX = 32 };
 
 /* What one report id has shown so far. */
 struct candidate {
@@ -79,252 +28,10 @@ struct candidate {
 };
 
 struct reader {
-	const uint8_t *bytes;
-	int size, at;
-	struct globals global;
-	struct globals stack[GLOBAL_STACK_MAX];
-	int stack_depth;
-	struct usage_range usage[USAGE_RANGES_MAX];
-	int usage_count;
-	int usage_total;
-	uint32_t usage_minimum;
-	bool usage_minimum_given, usage_minimum_extended;
-	int delimiter_depth, delimiter_usages;
-	enum role role[COLLECTION_DEPTH_MAX + 1]; /* role[depth] holds for the fields in there */
-	int depth;
-	bool ids_used;
-	uint32_t input_bits[256]; /* by report id, without the id byte */
+	struct items items;
 	struct candidate candidate[CANDIDATES_MAX];
 	int candidate_count;
-	char *reason;
 };
-
-static bool refuse(struct reader *r, const char *why)
-{
-	snprintf(r->reason, 160, "byte %d: %s", r->at, why);
-	return false;
-}
-
-/* The next item, long items included. False at the end or when the item is cut off. */
-static bool item_next(struct reader *r, struct item *item)
-{
-	static const int sizes[4] = {0, 1, 2, 4};
-	if (r->at >= r->size)
-		return false;
-	uint8_t prefix = r->bytes[r->at];
-	if (prefix == 0xfe) {
-		if (r->size - r->at < 3 || r->size - r->at - 3 < r->bytes[r->at + 1])
-			return refuse(r, "a long item is cut off");
-		*item = (struct item){.type = 3};
-		r->at += 3 + r->bytes[r->at + 1];
-		return true;
-	}
-	int size = sizes[prefix & 3];
-	if (r->size - r->at - 1 < size)
-		return refuse(r, "an item is cut off");
-	uint32_t value = 0;
-	for (int i = 0; i < size; i++)
-		value |= (uint32_t)r->bytes[r->at + 1 + i] << (8 * i);
-	int32_t signed_value = (int32_t)value;
-	if (size == 1)
-		signed_value = (int8_t)value;
-	if (size == 2)
-		signed_value = (int16_t)value;
-	*item = (struct item){prefix >> 2 & 3, prefix >> 4, size, value, signed_value};
-	r->at += 1 + size;
-	return true;
-}
-
-/* --- globals ------------------------------------------------------------------------- */
-
-static bool global_push(struct reader *r)
-{
-	if (r->stack_depth == GLOBAL_STACK_MAX)
-		return refuse(r, "more than 4 nested Push items");
-	r->stack[r->stack_depth++] = r->global;
-	return true;
-}
-
-static bool global_pop(struct reader *r)
-{
-	if (!r->stack_depth)
-		return refuse(r, "Pop without Push");
-	r->global = r->stack[--r->stack_depth];
-	return true;
-}
-
-static bool global_report_id(struct reader *r, uint32_t id)
-{
-	if (id == 0 || id > 255)
-		return refuse(r, "a report id outside of 1 to 255");
-	r->ids_used = true;
-	r->global.report_id = (int)id;
-	return true;
-}
-
-static bool global_item(struct reader *r, const struct item *item)
-{
-	struct globals *g = &r->global;
-	switch (item->tag) {
-	case 0x0:
-		g->page = item->value & 0xffff;
-		return true;
-	case 0x1:
-		g->logical_minimum = item->signed_value;
-		return true;
-	case 0x2:
-		g->logical_maximum = item->signed_value;
-		g->logical_maximum_raw = item->value;
-		return true;
-	case 0x3:
-		g->physical_minimum = item->signed_value;
-		return true;
-	case 0x4:
-		g->physical_maximum = item->signed_value;
-		g->physical_maximum_raw = item->value;
-		return true;
-	case 0x5: /* a signed nibble; some devices write it as a signed byte */
-		g->unit_exponent = (int)(item->value & 15);
-		g->unit_exponent -= g->unit_exponent > 7 ? 16 : 0;
-		return true;
-	case 0x6:
-		g->unit = item->value;
-		return true;
-	case 0x7:
-		g->report_size = item->value;
-		return item->value <= FIELD_BITS_MAX || refuse(r, "a field of more than 256 bits");
-	case 0x8:
-		return global_report_id(r, item->value);
-	case 0x9:
-		g->report_count = item->value;
-		return item->value <= USAGES_MAX || refuse(r, "more than 12288 fields at once");
-	case 0xa:
-		return global_push(r);
-	case 0xb:
-		return global_pop(r);
-	}
-	return true;
-}
-
-/* --- locals -------------------------------------------------------------------------- */
-
-static bool usage_add(struct reader *r, uint32_t first, uint32_t last, bool extended)
-{
-	if (last < first)
-		return refuse(r, "a usage range that ends before it begins");
-	if (last - first >= USAGES_MAX - (uint32_t)r->usage_total)
-		return refuse(r, "more than 12288 usages");
-	if (r->usage_count == USAGE_RANGES_MAX)
-		return refuse(r, "more than 256 usages or ranges before one main item");
-	r->usage[r->usage_count++] = (struct usage_range){first, last, extended};
-	r->usage_total += (int)(last - first) + 1;
-	return true;
-}
-
-static bool local_item(struct reader *r, const struct item *item)
-{
-	bool extended = item->size == 4;
-	switch (item->tag) {
-	case 0x0: /* usages between delimiters are alternatives for one control; the first counts */
-		if (r->delimiter_depth && r->delimiter_usages++)
-			return true;
-		return usage_add(r, item->value, item->value, extended);
-	case 0x1:
-		r->usage_minimum = item->value;
-		r->usage_minimum_given = true;
-		r->usage_minimum_extended = extended;
-		return true;
-	case 0x2:
-		if (!r->usage_minimum_given || r->delimiter_depth)
-			return true;
-		r->usage_minimum_given = false;
-		return usage_add(r, r->usage_minimum, item->value,
-				 extended || r->usage_minimum_extended);
-	case 0xa:
-		if (item->value ? r->delimiter_depth : !r->delimiter_depth)
-			return refuse(r, "delimiters that do not match");
-		r->delimiter_depth = item->value ? 1 : 0;
-		r->delimiter_usages = 0;
-		return true;
-	}
-	return true;
-}
-
-static void locals_clear(struct reader *r)
-{
-	r->usage_count = r->usage_total = 0;
-	r->usage_minimum_given = false;
-	r->delimiter_depth = r->delimiter_usages = 0;
-}
-
-/* Usage number `index` of the current main item; the last one holds for all further fields. */
-static uint32_t usage_at(const struct reader *r, int index)
-{
-	for (int i = 0; i < r->usage_count; i++) {
-		const struct usage_range *range = &r->usage[i];
-		int count = (int)(range->last - range->first) + 1;
-		bool last = i == r->usage_count - 1;
-		if (index < count || last) {
-			uint32_t usage = range->first + (uint32_t)int_min(index, count - 1);
-			return range->extended ? usage : USAGE(r->global.page, usage);
-		}
-		index -= count;
-	}
-	return 0;
-}
-
-/* --- collections --------------------------------------------------------------------- */
-
-static enum role application_role(uint32_t usage)
-{
-	switch (usage) {
-	case USAGE(PAGE_DESKTOP, 0x01):
-	case USAGE(PAGE_DESKTOP, 0x02):
-		return ROLE_MOUSE;
-	case USAGE(PAGE_DIGITIZER, 0x01):
-	case USAGE(PAGE_DIGITIZER, 0x02):
-	case USAGE(PAGE_WACOM, 0x01):
-	case USAGE(PAGE_WACOM, 0x02):
-		return ROLE_PEN;
-	case USAGE(PAGE_DIGITIZER, 0x04):
-	case USAGE(PAGE_DIGITIZER, 0x05):
-	case USAGE(PAGE_DIGITIZER, 0x0e):
-		return ROLE_TOUCH;
-	}
-	return ROLE_NONE;
-}
-
-/* The innermost application counts, as it does for the kernel; what lies in it may say more. */
-static enum role collection_role(enum role outer, uint32_t type, uint32_t usage)
-{
-	enum { COLLECTION_APPLICATION = 1 };
-	if (type == COLLECTION_APPLICATION)
-		return application_role(usage);
-	if (outer == ROLE_OUTSIDE || outer == ROLE_TOUCH)
-		return outer;
-	if (usage == USAGE(PAGE_DIGITIZER, 0x22))
-		return ROLE_TOUCH;
-	if (usage == USAGE(PAGE_DIGITIZER, 0x20) || usage == USAGE(PAGE_WACOM, 0x20))
-		return ROLE_PEN;
-	return outer;
-}
-
-static bool collection_open(struct reader *r, uint32_t type)
-{
-	if (r->depth == COLLECTION_DEPTH_MAX)
-		return refuse(r, "collections more than 32 deep");
-	enum role outer = r->role[r->depth];
-	r->role[++r->depth] = collection_role(outer, type, usage_at(r, 0));
-	return true;
-}
-
-static bool collection_close(struct reader *r)
-{
-	if (!r->depth)
-		return refuse(r, "End Collection without a collection");
-	r->depth--;
-	return true;
-}
 
 /* --- fields -------------------------------------------------------------------------- */
 
@@ -346,9 +53,8 @@ static int64_t maximum_meant(int32_t minimum, int32_t maximum, uint32_t raw)
 	return minimum >= 0 && maximum < minimum ? (int64_t)raw : maximum;
 }
 
-static struct pen_field field_here(const struct reader *r, uint32_t bit)
+static struct pen_field field_here(const struct globals *g, uint32_t bit)
 {
-	const struct globals *g = &r->global;
 	int64_t maximum = maximum_meant(g->logical_minimum, g->logical_maximum,
 					g->logical_maximum_raw);
 	return (struct pen_field){
@@ -472,21 +178,23 @@ static void field_digitizer(struct candidate *c, uint32_t id, struct pen_field f
 static void field_add(struct reader *r, uint32_t usage, uint32_t bit, bool relative)
 {
 	uint32_t page = usage >> 16, id = usage & 0xffff;
-	struct pen_field field = field_here(r, bit);
+	const struct globals *g = &r->items.global;
+	enum role role = r->items.role[r->items.depth];
+	struct pen_field field = field_here(g, bit);
 	if (field.size < 1 || field.size > 32)
 		return;
-	struct candidate *c = candidate_at(r, r->global.report_id);
+	struct candidate *c = candidate_at(r, g->report_id);
 	if (!c)
 		return;
-	c->pen |= r->role[r->depth] == ROLE_PEN;
-	c->mouse |= r->role[r->depth] == ROLE_MOUSE;
+	c->pen |= role == ROLE_PEN;
+	c->mouse |= role == ROLE_MOUSE;
 	/* Wacom's page has X and Y as 0x130 and 0x131, and the digitizer's ids as they are. */
 	bool wacom_axis = page == PAGE_WACOM && (id == 0x130 || id == 0x131);
 	if (page == PAGE_DESKTOP || wacom_axis) {
 		c->relative |= relative && (id == 0x30 || id == 0x31);
-		field_desktop(c, id & 0xff, field, &r->global);
+		field_desktop(c, id & 0xff, field, g);
 	} else if (page == PAGE_DIGITIZER || page == PAGE_WACOM) {
-		field_digitizer(c, id, field, &r->global, page == PAGE_WACOM);
+		field_digitizer(c, id, field, g, page == PAGE_WACOM);
 	} else if (page == PAGE_BUTTON && id == 1) {
 		field_once(&c->button, field);
 	} else if (page == PAGE_BUTTON && id == 2) {
@@ -494,36 +202,23 @@ static void field_add(struct reader *r, uint32_t usage, uint32_t bit, bool relat
 	}
 }
 
-static bool input_item(struct reader *r, uint32_t flags)
+static void input_add(struct reader *r)
 {
-	const struct globals *g = &r->global;
-	uint32_t *bits = &r->input_bits[g->report_id];
-	uint32_t start = *bits + (r->ids_used ? 8 : 0);
-	if (g->report_size * g->report_count > REPORT_BITS_MAX - *bits)
-		return refuse(r, "a report of more than 16 KiB");
-	*bits += g->report_size * g->report_count;
-	bool constant = flags & 1, variable = flags & 2, relative = flags & 4;
-	enum role role = r->role[r->depth];
-	if (constant || !variable || !r->usage_count || (role != ROLE_PEN && role != ROLE_MOUSE))
-		return true;
-	/* Only as many fields as there are usages have a meaning of their own. */
-	int count = int_min((int)g->report_count, r->usage_total);
+	const struct items *items = &r->items;
+	bool constant = items->input_flags & 1, variable = items->input_flags & 2;
+	enum role role = items->role[items->depth];
+	if (constant || !variable || (role != ROLE_PEN && role != ROLE_MOUSE))
+		return;
+	/* Only as many fields as there are usages have a meaning of their own, and a report with
+	 * more bits than we take is no pen's: a hostile descriptor makes little work. */
+	int count = int_min((int)items->global.report_count, items->usage_total);
+	count = int_min(count, 8 * REPORT_BYTES_MAX);
+	if (items->input_start >= 8 * REPORT_BYTES_MAX || items->global.report_size == 0)
+		return;
 	for (int i = 0; i < count; i++)
-		field_add(r, usage_at(r, i), start + (uint32_t)i * g->report_size, relative);
-	return true;
-}
-
-static bool main_item(struct reader *r, const struct item *item)
-{
-	bool sound = true;
-	if (item->tag == 0x8)
-		sound = input_item(r, item->value);
-	else if (item->tag == 0xa)
-		sound = collection_open(r, item->value);
-	else if (item->tag == 0xc)
-		sound = collection_close(r);
-	locals_clear(r);
-	return sound;
+		field_add(r, pen_items_usage(items, i),
+			  items->input_start + (uint32_t)i * items->global.report_size,
+			  items->input_flags & 4);
 }
 
 /* --- candidates to layouts ----------------------------------------------------------- */
@@ -547,6 +242,8 @@ static bool axis_sound(const struct pen_field *field)
 static bool candidate_accept(const struct reader *r, struct candidate *c)
 {
 	struct pen_layout *l = &c->layout;
+	if (r->items.ids_used && !l->report_id)
+		return false;
 	if (!axis_sound(&l->x) || !axis_sound(&l->y) || c->relative)
 		return false;
 	if (l->pressure.maximum <= l->pressure.minimum)
@@ -569,38 +266,29 @@ static bool candidate_accept(const struct reader *r, struct candidate *c)
 		l->width_mm = c->x_mm;
 		l->height_mm = c->y_mm;
 	}
-	l->report_bits = (int)r->input_bits[l->report_id] + (r->ids_used ? 8 : 0);
+	l->report_bits = (int)r->items.input_bits[l->report_id] + (r->items.ids_used ? 8 : 0);
 	return l->report_bits <= 8 * REPORT_BYTES_MAX;
 }
 
-static bool descriptor_walk(struct reader *r)
+static bool size_sound(int size, char reason[160])
 {
-	struct item item;
-	while (item_next(r, &item)) { /* every item moves r->at forward */
-		bool sound = item.type == 0   ? main_item(r, &item)
-			     : item.type == 1 ? global_item(r, &item)
-			     : item.type == 2 ? local_item(r, &item)
-					      : true;
-		if (!sound)
-			return false;
-	}
-	if (r->at < r->size)
-		return false;
-	if (r->depth)
-		return refuse(r, "a collection is not closed");
-	return true;
+	bool sound = size >= 1 && size <= DESCRIPTOR_BYTES_MAX;
+	snprintf(reason, 160, "a report descriptor has 1 to %d bytes, not %d", DESCRIPTOR_BYTES_MAX,
+		 size);
+	return sound;
 }
 
 int pen_descriptor_read(const uint8_t *descriptor, int size,
 			struct pen_layout layout[PEN_REPORTS_MAX], char reason[160])
 {
-	struct reader r = {.bytes = descriptor, .size = size, .reason = reason};
-	if (size < 1 || size > DESCRIPTOR_BYTES_MAX) {
-		snprintf(reason, 160, "a report descriptor has 1 to %d bytes, not %d",
-			 DESCRIPTOR_BYTES_MAX, size);
+	struct reader r = {.candidate_count = 0};
+	enum items_event event;
+	if (!size_sound(size, reason))
 		return 0;
-	}
-	if (!descriptor_walk(&r))
+	pen_items_init(&r.items, descriptor, size, reason);
+	while ((event = pen_items_next(&r.items)) == ITEMS_INPUT)
+		input_add(&r);
+	if (event == ITEMS_FAULT)
 		return 0;
 	int count = 0;
 	for (int i = 0; i < r.candidate_count && count < PEN_REPORTS_MAX; i++)
@@ -612,7 +300,13 @@ int pen_descriptor_read(const uint8_t *descriptor, int size,
 
 bool pen_descriptor_sound(const uint8_t *descriptor, int size)
 {
+	struct items items;
+	enum items_event event = ITEMS_INPUT;
 	char reason[160];
-	struct reader r = {.bytes = descriptor, .size = size, .reason = reason};
-	return size >= 1 && size <= DESCRIPTOR_BYTES_MAX && descriptor_walk(&r);
+	if (!size_sound(size, reason))
+		return false;
+	pen_items_init(&items, descriptor, size, reason);
+	while (event == ITEMS_INPUT)
+		event = pen_items_next(&items);
+	return event == ITEMS_END;
 }

@@ -244,6 +244,22 @@ static void check_rare_items(void)
 	CHECK(layout[0].report_bits == 48); /* after Pop eight fields are eight bits again */
 }
 
+/* A finger's position in the same report is not the pen's. */
+static void check_mixed(void)
+{
+	static const char *hex =
+		"050d 0901 a101 8503 0922 a102 0501 7510 9502 26ff0f 0930 0931 8102 c0"
+		"050d 0920 a100 0942 7508 9501 2501 8102 0501 7510 9502 26ff0f"
+		"0930 0931 8102 c0 c0";
+	uint8_t bytes[DESCRIPTOR_BYTES_MAX];
+	struct pen_layout layout[PEN_REPORTS_MAX];
+	char reason[160];
+	int size = table_hex(hex, bytes, sizeof bytes);
+	CHECK(pen_descriptor_read(bytes, size, layout, reason) == 1);
+	CHECK(layout[0].tip.bit == 40 && layout[0].x.bit == 48 && layout[0].report_bits == 80);
+	CHECK(pen_descriptor_sound(bytes, size) && !pen_descriptor_sound(bytes, size - 1));
+}
+
 /* Every prefix of a real descriptor is read or refused, never trusted half. */
 static void check_truncated(int at)
 {
@@ -259,6 +275,7 @@ int main(void)
 	check_own_descriptors();
 	check_hostile();
 	check_rare_items();
+	check_mixed();
 	if (!table_read(&expected, DATA "expected.csv", ',') ||
 	    !table_read(&descriptors, DATA "descriptors.tsv", '\t') ||
 	    !table_read(&nonpen, DATA "descriptors_nonpen.tsv", '\t')) {
