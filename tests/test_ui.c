@@ -20,6 +20,7 @@ struct hand {
 	int64_t now_us;
 	struct scatter scatter;
 	bool trembles, eraser;
+	int redrawn;
 };
 
 /* ---- the hand ---- */
@@ -199,6 +200,26 @@ static void check_drawing(struct hand *hand)
 	piece_bounds(piece_at(hand, 0), &new_low, &new_high);
 	CHECK_NEAR(new_low.x - low.x, 40, 12);
 	CHECK_NEAR(new_low.y - low.y, -100, 12);
+}
+
+/* A stretch of the outline redrawn from edge to edge: taken, or refused with a reason (the new line
+ * may cross the old where a hand trembles at its ends); hardly ever refused. */
+static void check_redrawing(struct hand *hand)
+{
+	struct v2 low, high, new_low, new_high;
+	piece_bounds(piece_at(hand, 0), &low, &high);
+	struct v2 bulge[4] = {paper(hand, high.x, 120), paper(hand, high.x + 90, 60),
+			      paper(hand, high.x + 90, -60), paper(hand, high.x, -120)};
+	watch(hand);
+	stroke(hand, bulge, 4);
+	if (hand->trembles && hand->sent.count == 0) {
+		CHECK(hand->ui->notice == TEXT_CROSSES);
+		return;
+	}
+	CHECK(sent(hand, EDIT_OUTLINE) == 1 && hand->sent.count == 1);
+	piece_bounds(piece_at(hand, 0), &new_low, &new_high);
+	CHECK_NEAR(new_high.x, high.x + 90, 25);
+	hand->redrawn++;
 }
 
 static void check_buttons_of_pieces(struct hand *hand)
@@ -625,6 +646,7 @@ static void visit(struct hand *hand, unsigned seed)
 	hand->scatter.state = seed * 2654435761u + 1u;
 	int failures = test_failures;
 	check_drawing(hand);
+	check_redrawing(hand);
 	check_buttons_of_pieces(hand);
 	check_sewing(hand);
 	check_cloth_marks(hand);
@@ -653,6 +675,7 @@ int main(void)
 	CHECK(!body_build_mannequin(&hand->session->body));
 	for (unsigned seed = 0; seed <= 6; seed++)
 		visit(hand, seed);
+	CHECK(hand->redrawn >= 6);
 	free(memory);
 	free(hand->session);
 	free(hand->ui);

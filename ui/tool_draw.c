@@ -92,7 +92,7 @@ static void oversketch(struct tool *tool)
 	piece = tool->session->document.pattern.piece[ui->piece];
 	const char *fault = piece_oversketch(&piece, stroke_on_sheet(ui), ui->stroke_count);
 	if (fault) {
-		tool_notice(tool, TEXT_OVERSKETCH);
+		tool_notice(tool, text_refusal(fault));
 		return;
 	}
 	struct edit *edit = edit_push(tool->edits, EDIT_OUTLINE);
