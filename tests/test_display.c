@@ -1,12 +1,12 @@
 /* Displays: what is drawn is what is read, top row first; refusals say why; the mouse is a pen. */
 #include "display.h"
 #include "pen.h"
+#include "leaks.h"
 #include "test.h"
 
 #include <GLES3/gl3.h>
 #include <SDL2/SDL.h>
 #include <unistd.h>
-
 
 enum { WIDTH = 40, HEIGHT = 30 };
 

@@ -4,6 +4,7 @@
 #include "display.h"
 #include "draw_private.h"
 #include "scene.h"
+#include "leaks.h"
 #include "test.h"
 
 enum { WIDTH = 640, HEIGHT = 360 };

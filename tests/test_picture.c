@@ -1,5 +1,6 @@
 /* Pictures as files: what is written is what is read; a full disk or a wrong path is told. */
 #include "picture.h"
+#include "leaks.h"
 #include "test.h"
 
 #include <cairo.h>
