@@ -105,6 +105,10 @@ int cloth_unfold(struct cloth *cloth);
  * triangles. Returns how many were found. */
 int cloth_push_out(struct cloth *cloth, int slice, int slices);
 
+/* Contact alone, exactly and everywhere, until nothing passes through the body: the state in which
+ * a cloth comes to rest. */
+void cloth_clean(struct cloth *cloth);
+
 /* Outward normals per vertex for drawing, into `normal` (vertex_count). */
 void cloth_normals(const struct cloth *cloth, struct v3 *normal);
 

@@ -1,7 +1,7 @@
 /* Folds turned back, edges pushed out: the help that physics would not give (S18). */
 #include "cloth_private.h"
 
-enum { SMOOTH_ROUNDS = 20, EDGE_SAMPLES = 8 };
+enum { SMOOTH_ROUNDS = 20, EDGE_SAMPLES = 8, CLEAN_ROUNDS = 6 };
 
 static const float fold_reach_m = 0.06f; /* a fold matters this near to the body */
 static const float behind_m = 0.25f;     /* cloth this far before a body belongs to it */
@@ -23,7 +23,7 @@ static bool faces_body(const struct cloth *cloth, int t)
 		centre = v3_mad(centre, cloth->position_m[v[k]], 1.0f / 3.0f);
 	struct body_hit hit;
 	body_walk(cloth->body, centre, cloth->contact[v[0]].triangle, 16, &hit);
-	if (hit.distance_m > fold_reach_m || v3_dot(normal, hit.normal) > -0.2f)
+	if (hit.distance_m > fold_reach_m || v3_dot(normal, hit.normal) > -0.5f)
 		return false;
 	return !body_ray(cloth->body, centre, v3_scale(normal, -1.0f), &hit) ||
 	       hit.distance_m > behind_m;
@@ -126,4 +126,21 @@ int cloth_push_out(struct cloth *cloth, int slice, int slices)
 	if (found > 0)
 		cloth_finish(cloth);
 	return found;
+}
+
+void cloth_clean(struct cloth *cloth)
+{
+	for (int round = 0; round < CLEAN_ROUNDS; round++) {
+		for (int v = 0; v < cloth->garment->vertex_count; v++)
+			if (is_particle(cloth, v)) {
+				cloth_look(cloth, v);
+				cloth->scratch->start_m[v] = cloth->position_m[v];
+			}
+		cloth_contact_faces(cloth, 0, 1);
+		int found = cloth_push_out(cloth, 0, 1);
+		cloth_contact(cloth);
+		if (found == 0 && round > 0)
+			break;
+	}
+	cloth_finish(cloth);
 }

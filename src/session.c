@@ -9,6 +9,7 @@ enum {
 	REST_FRAMES = 30, /* so many calm frames, and the cloth sleeps until something touches it */
 	COOL_FRAMES = 90, /* after the last touch momentum begins to fade */
 	SLEEP_FRAMES = 300, /* and here the cloth sleeps in any case */
+	UNFOLDS_MAX = 4,    /* before it may sleep */
 	PUSH_SLICES = 16,
 };
 
@@ -34,6 +35,7 @@ void session_wake(struct session *session)
 {
 	session->rest_frames = 0;
 	session->untouched_frames = 0;
+	session->unfolds = 0;
 }
 
 void session_release(struct session *session)
@@ -116,20 +118,35 @@ static long advance_wrap(struct session *session)
 }
 
 /* The mean, not the largest: a crease may tremble for ever between two shapes. */
-static void note_rest(struct session *session)
+static bool is_calm(const struct session *session)
 {
 	const struct cloth *cloth = &session->cloth;
 	float moved = 0.0f;
 	int count = session->garment.vertex_count;
 	for (int v = 0; v < count; v++)
 		moved += v3_distance(cloth->position_m[v], session->frame_start_m[v]);
-	bool calm = moved < calm_m * (float)count;
-	session->rest_frames = calm ? session->rest_frames + 1 : 0;
+	return moved < calm_m * (float)count;
+}
+
+/* Counts towards sleep. Before it sleeps the cloth turns its last folds back, and moves once more;
+ * then it is cleaned, so that it lies still exactly outside the body. */
+static void note_rest(struct session *session)
+{
+	session->rest_frames = is_calm(session) ? session->rest_frames + 1 : 0;
 	session->untouched_frames++;
 	if (session->drag.active || session->relaxing)
 		session->untouched_frames = 0;
 	if (session->untouched_frames >= SLEEP_FRAMES)
 		session->rest_frames = REST_FRAMES;
+	if (session->rest_frames < REST_FRAMES || session->untouched_frames == 0)
+		return;
+	if (session->unfolds < UNFOLDS_MAX && cloth_unfold(&session->cloth) > 0) {
+		session->unfolds++;
+		session->rest_frames = 0;
+		session->untouched_frames = COOL_FRAMES;
+		return;
+	}
+	cloth_clean(&session->cloth);
 }
 
 /* Cloth that nobody touches calms down: creases would tremble for ever under full momentum. */

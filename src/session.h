@@ -48,6 +48,7 @@ struct session {
 	long work_units;            /* spent so far */
 	long frame_units;           /* spent in the last frame */
 	int untouched_frames;       /* since an edit last woke the cloth */
+	int unfolds;                /* since then */
 	int rest_frames;            /* frames since the cloth last had a reason to move */
 	struct v3 *frame_start_m;   /* the cloth as the frame began, to see whether it rests */
 	float strain_left;          /* 0..1 meter: mean stretch of the worn cloth against 10 % */
