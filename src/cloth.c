@@ -1,6 +1,6 @@
 #include "cloth_private.h"
 
-enum { FACE_SLICES = 8 };
+enum { FACE_SLICES = 10 }; /* a frame's sweeps: all faces once a frame */
 
 void cloth_init(struct cloth *cloth, struct arena *arena)
 {
@@ -27,6 +27,9 @@ void cloth_init(struct cloth *cloth, struct arena *arena)
 	s->ring_first = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX + 2);
 	s->ring = ARENA_ARRAY(arena, int, 6 * GARMENT_TRIANGLES_MAX);
 	s->smooth_m = ARENA_ARRAY(arena, struct v3, GARMENT_VERTICES_MAX);
+	s->edge_owner = ARENA_ARRAY(arena, uint8_t, GARMENT_TRIANGLES_MAX);
+	s->lift_m = ARENA_ARRAY(arena, float, GARMENT_VERTICES_MAX);
+	s->slack_m = ARENA_ARRAY(arena, float, GARMENT_VERTICES_MAX);
 	cloth->scratch = s;
 	cloth->settings = cloth_settings_worn();
 }
@@ -40,7 +43,8 @@ struct cloth_settings cloth_settings_worn(void)
 		.reach = 0.7f,
 		.momentum = 0.9f,
 		.gravity_m = 20e-6f,
-		.friction = 0.5f,
+		.friction = 0.2f,
+		.grip = 0.5f,
 		.offset_m = 0.004f,
 		.step_max_m = 0.006f,
 		.faces = true,
@@ -51,6 +55,7 @@ struct cloth_settings cloth_settings_relax(void)
 {
 	struct cloth_settings settings = cloth_settings_worn();
 	settings.friction = 0.05f;
+	settings.grip = 0.05f;
 	settings.flatness = 0.06f;
 	settings.shape_passes = 2;
 	return settings;
@@ -69,6 +74,8 @@ void cloth_reset(struct cloth *cloth, const struct garment *garment, const struc
 	memset(cloth->placed, 0, GARMENT_VERTICES_MAX);
 	memset(cloth->held, 0, GARMENT_VERTICES_MAX);
 	memset(cloth->piece_parts, 0, sizeof cloth->piece_parts);
+	memset(cloth->scratch->lift_m, 0, GARMENT_VERTICES_MAX * sizeof(float));
+	memset(cloth->scratch->slack_m, 0, GARMENT_VERTICES_MAX * sizeof(float));
 	if (!garment)
 		return;
 	for (int v = 0; v < garment->vertex_count; v++)

@@ -37,6 +37,7 @@ struct cloth_settings {
 	float momentum;    /* 0..1: share of the last step carried on */
 	float gravity_m;   /* displacement a sweep */
 	float friction;    /* 0..1: share of tangential motion lost in contact */
+	float grip;        /* Coulomb: motion shorter than this times the push is lost wholly */
 	float offset_m;    /* cloth stays this far outside the body */
 	float step_max_m;  /* bound on a particle's motion in one sweep */
 	float seam_step_m; /* bound on the closing of a seam in one sweep; 0: seams don't pull */

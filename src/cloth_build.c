@@ -108,6 +108,7 @@ static void pair_edges(struct cloth *cloth)
 	struct cloth_scratch *s = cloth->scratch;
 	const struct triangle *triangle = cloth->triangle;
 	cloth->flat_count = 0;
+	memset(s->edge_owner, 7, (size_t)cloth->garment->triangle_count);
 	for (int v = 0; v < cloth->garment->vertex_count; v++)
 		for (int i = s->edge_first[v]; i < s->edge_first[v + 1]; i++)
 			for (int j = i + 1; j < s->edge_first[v + 1]; j++) {
@@ -116,8 +117,10 @@ static void pair_edges(struct cloth *cloth)
 						     triangle[e / 3].v[(e % 3 + 1) % 3]);
 				int f_high = int_max(triangle[f / 3].v[f % 3],
 						     triangle[f / 3].v[(f % 3 + 1) % 3]);
-				if (e_high == f_high && cloth->flat_count < GARMENT_EDGES_MAX)
-					add_flat(cloth, e, f);
+				if (e_high != f_high || cloth->flat_count == GARMENT_EDGES_MAX)
+					continue;
+				add_flat(cloth, e, f);
+				s->edge_owner[f / 3] &= (uint8_t) ~(1 << f % 3);
 			}
 }
 

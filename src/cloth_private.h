@@ -24,6 +24,10 @@ struct cloth_scratch {
 	uint8_t *flipped;       /* per triangle or particle, while folds are turned back */
 	int *ring_first, *ring; /* neighbours of particles */
 	struct v3 *smooth_m;
+	uint8_t *edge_owner; /* per triangle: bit k: edge k is looked at here, not in its neighbour
+			      */
+	float *lift_m;       /* per particle: above offset_m, for the sake of its faces */
+	float *slack_m;      /* per particle: least clearance of its faces in this round */
 };
 
 static inline bool triangle_placed(const struct cloth *cloth, int t)

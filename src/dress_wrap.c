@@ -38,6 +38,7 @@ static struct cloth_settings growing(void)
 	set.momentum = 0.0f;
 	set.gravity_m = 0.0f;
 	set.friction = 0.2f;
+	set.grip = 0.0f;
 	set.filter_parts = true;
 	set.faces = false;
 	return set;
@@ -58,6 +59,7 @@ static struct cloth_settings unfolding(void)
 	set.flatness = 0.2f;
 	set.momentum = 0.3f;
 	set.friction = 0.0f;
+	set.grip = 0.0f;
 	set.offset_m += 0.004f;
 	set.filter_parts = false;
 	return set;
