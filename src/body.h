@@ -44,7 +44,8 @@ struct body {
 	int node_count;
 	struct bvh_node *node;
 	int *node_triangle; /* slots */
-	int bone_count;
+	int bone_count; /* spine from the pelvis up, neck, head, limbs; collar-bones and hips last
+			 */
 	struct bone bone[BODY_BONES_MAX];
 	struct v3 low_m, high_m;
 	uint64_t hash;                /* of positions and triangles: names the body in a journal */

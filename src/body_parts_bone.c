@@ -123,9 +123,6 @@ void parts_bones(struct body *body, const struct parts_scratch *s, const int lim
 	body->bone_count = 0;
 	find_joints(trunk, &joints);
 	add_path(body, PART_TRUNK, trunk, &joints);
-	for (int part = PART_ARM_LEFT; part < PART_COUNT && trunk->count > 0; part++)
-		add_girdle(body, trunk->point_m[part < PART_LEG_LEFT ? trunk->count - 1 : 0],
-			   &s->limb[limb[part]].path);
 	add_whole(body, PART_HEAD, &s->neck);
 	add_whole(body, PART_HEAD, &s->limb[limb[PART_HEAD]].path);
 	for (int part = PART_ARM_LEFT; part < PART_COUNT; part++) {
@@ -133,4 +130,7 @@ void parts_bones(struct body *body, const struct parts_scratch *s, const int lim
 		find_joints(path, &joints);
 		add_path(body, (enum body_part)part, path, &joints);
 	}
+	for (int part = PART_ARM_LEFT; part < PART_COUNT && trunk->count > 0; part++)
+		add_girdle(body, trunk->point_m[part < PART_LEG_LEFT ? trunk->count - 1 : 0],
+			   &s->limb[limb[part]].path);
 }
