@@ -134,24 +134,13 @@ static void draw_item(const struct chrome *chrome, const struct ui *ui, int item
 	cairo_restore(chrome->cr);
 }
 
-static struct rect join(struct rect a, struct rect b)
-{
-	if (a.w == 0)
-		return b;
-	if (b.w == 0)
-		return a;
-	int right = int_max(a.x + a.w, b.x + b.w), bottom = int_max(a.y + a.h, b.y + b.h);
-	int x = int_min(a.x, b.x), y = int_min(a.y, b.y);
-	return (struct rect){x, y, right - x, bottom - y};
-}
-
 static void add_damage(struct layer *layer, struct rect rect)
 {
 	if (rect.w <= 0 || rect.h <= 0)
 		return;
 	if (layer->damage_count == LAYER_DAMAGE_MAX)
-		layer->damage[LAYER_DAMAGE_MAX - 1] = join(layer->damage[LAYER_DAMAGE_MAX - 1],
-							   rect);
+		layer->damage[LAYER_DAMAGE_MAX - 1] = rect_join(layer->damage[LAYER_DAMAGE_MAX - 1],
+								rect);
 	else
 		layer->damage[layer->damage_count++] = rect;
 }
@@ -166,9 +155,9 @@ static void make_patches(struct layer *layer, const struct layout *layout)
 {
 	struct rect views = {0, 0, 0, 0}, swatches = {0, 0, 0, 0};
 	for (int i = TARGET_VIEW_FRONT; i <= TARGET_VIEW_BACK; i++)
-		views = join(views, layout->target[i]);
+		views = rect_join(views, layout->target[i]);
 	for (int i = TARGET_SWATCH_0; i <= TARGET_SWATCH_7; i++)
-		swatches = join(swatches, layout->target[i]);
+		swatches = rect_join(swatches, layout->target[i]);
 	layer->patch_count = 0;
 	add_patch(layer, layout->bar, true);
 	add_patch(layer, layout->bottom, true);

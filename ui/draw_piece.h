@@ -19,6 +19,17 @@ struct easel {
 	double unit; /* pixels for a pixel at 1080 lines */
 };
 
+static inline const struct piece *piece_of(const struct easel *easel, int piece)
+{
+	return &easel->session->document.pattern.piece[piece];
+}
+
+static inline struct v2 local_px(const struct easel *easel, const struct piece *piece,
+				 struct v2 local_mm, struct v2 shift_mm)
+{
+	return view_sheet_px(&easel->ui->view, v2_add(piece_to_sheet(piece, local_mm), shift_mm));
+}
+
 /* A piece, shifted on the sheet by shift_mm (while it is moved), raised then. */
 void draw_piece(const struct easel *easel, int piece, struct v2 shift_mm, bool raised);
 
@@ -36,5 +47,17 @@ void draw_pins(const struct easel *easel);
 
 /* The rectangle that a piece with everything on it covers, in screen pixels. */
 struct rect piece_area(const struct easel *easel, int piece, struct v2 shift_mm);
+
+/* ---- draw_paper.c ---- */
+
+void draw_paper(cairo_t *cr, struct type *type, double unit, const struct view *view);
+
+/* ---- draw_live.c ---- */
+
+/* What draw_live will cover; it draws the gesture in progress, or the ring of a hovering pen. */
+struct rect live_extent(const struct easel *easel);
+void draw_live(const struct easel *easel);
+bool pen_hovers(const struct ui *ui);
+int next_cloth_number(const struct session *session);
 
 #endif

@@ -30,35 +30,6 @@ struct sheet {
 	struct rect live_area; /* what follows the pen covers */
 };
 
-/* ---- rectangles, in screen pixels ---- */
-
-static struct rect join(struct rect a, struct rect b)
-{
-	if (a.w <= 0)
-		return b;
-	if (b.w <= 0)
-		return a;
-	int right = int_max(a.x + a.w, b.x + b.w), bottom = int_max(a.y + a.h, b.y + b.h);
-	int x = int_min(a.x, b.x), y = int_min(a.y, b.y);
-	return (struct rect){x, y, right - x, bottom - y};
-}
-
-static struct rect within(struct rect a, struct rect outer)
-{
-	int x = int_max(a.x, outer.x), y = int_max(a.y, outer.y);
-	int right = int_min(a.x + a.w, outer.x + outer.w);
-	int bottom = int_min(a.y + a.h, outer.y + outer.h);
-	return (struct rect){x, y, int_max(right - x, 0), int_max(bottom - y, 0)};
-}
-
-static struct rect around(struct v2 a, struct v2 b, double margin)
-{
-	double x = (double)float_min(a.x, b.x) - margin, y = (double)float_min(a.y, b.y) - margin;
-	double right = (double)float_max(a.x, b.x) + margin;
-	double bottom = (double)float_max(a.y, b.y) + margin;
-	return (struct rect){(int)x - 1, (int)y - 1, (int)(right - x) + 3, (int)(bottom - y) + 3};
-}
-
 static void clip_to(cairo_t *cr, struct rect area)
 {
 	cairo_save(cr);
@@ -69,90 +40,19 @@ static void clip_to(cairo_t *cr, struct rect area)
 static void add_damage(struct sheet *sheet, struct rect area)
 {
 	struct layer *layer = &sheet->layer;
-	struct rect rect = within(area, layer->area);
+	struct rect rect = rect_within(area, layer->area);
 	if (rect.w <= 0 || rect.h <= 0)
 		return;
 	rect.x -= layer->area.x;
 	rect.y -= layer->area.y;
 	int last = LAYER_DAMAGE_MAX - 1;
 	if (layer->damage_count > last)
-		layer->damage[last] = join(layer->damage[last], rect);
+		layer->damage[last] = rect_join(layer->damage[last], rect);
 	else
 		layer->damage[layer->damage_count++] = rect;
 }
 
-/* ---- paper ---- */
-
-/* Squares of 10 mm, or of the next round size that does not blur into grey. */
-static double grid_mm(const struct sheet *sheet, const struct view *view)
-{
-	static const double size[] = {10, 20, 50, 100, 200, 500, 1000};
-	int i = 0;
-	while (i < COUNT_OF(size) - 1 &&
-	       size[i] * (double)view->sheet_px_per_mm < 9.0 * sheet->unit)
-		i++;
-	return size[i];
-}
-
-static void grid_lines(cairo_t *cr, const struct view *view, double step_mm, uint32_t colour)
-{
-	struct rect pane = view->sheet_pane;
-	struct v2 low = view_sheet_mm(view, (struct v2){(float)pane.x, (float)(pane.y + pane.h)});
-	struct v2 high = view_sheet_mm(view, (struct v2){(float)(pane.x + pane.w), (float)pane.y});
-	int first = (int)((double)low.x / step_mm) - 1, last = (int)((double)high.x / step_mm) + 1;
-	for (int i = first; i <= last; i++) {
-		struct v2 at = view_sheet_px(view, (struct v2){(float)(i * step_mm), 0.0f});
-		cairo_rectangle(cr, (double)(int)at.x, pane.y, 1.0, pane.h);
-	}
-	first = (int)((double)low.y / step_mm) - 1;
-	last = (int)((double)high.y / step_mm) + 1;
-	for (int i = first; i <= last; i++) {
-		struct v2 at = view_sheet_px(view, (struct v2){0.0f, (float)(i * step_mm)});
-		cairo_rectangle(cr, pane.x, (double)(int)at.y, pane.w, 1.0);
-	}
-	ink(cr, colour, 1.0);
-	cairo_fill(cr);
-}
-
-/* A hundred millimetres of cloth, or the next round length that can be read. */
-static void draw_ruler(const struct sheet *sheet, cairo_t *cr, const struct view *view)
-{
-	static const int length_mm[] = {100, 200, 500, 1000, 2000};
-	double u = sheet->unit, scale = (double)view->sheet_px_per_mm;
-	int i = 0;
-	while (i < COUNT_OF(length_mm) - 1 && length_mm[i] * scale < 44.0 * u)
-		i++;
-	struct rect pane = view->sheet_pane;
-	double x = pane.x + 40.0 * u, y = pane.y + pane.h - 34.0 * u, w = length_mm[i] * scale;
-	cairo_move_to(cr, x, y - 9.0 * u);
-	cairo_line_to(cr, x, y + 9.0 * u);
-	cairo_move_to(cr, x, y);
-	cairo_line_to(cr, x + w, y);
-	cairo_move_to(cr, x + w, y - 9.0 * u);
-	cairo_line_to(cr, x + w, y + 9.0 * u);
-	cairo_set_line_width(cr, 3.0 * u);
-	ink(cr, LOOK_INK_GREY, 1.0);
-	cairo_stroke(cr);
-	char text[16];
-	snprintf(text, sizeof text, "%d mm", length_mm[i]);
-	struct style style = {19.0 * u, false, LOOK_INK_GREY, ALIGN_LEFT, 0.0};
-	draw_text(cr, sheet->type, text, x + w + 12.0 * u, y + 7.0 * u, &style);
-}
-
-static void draw_paper(const struct sheet *sheet, const struct view *view)
-{
-	cairo_t *cr = sheet->paper.cr;
-	struct rect pane = view->sheet_pane;
-	double step_mm = grid_mm(sheet, view);
-	ink(cr, LOOK_PAPER, 1.0);
-	cairo_paint(cr);
-	grid_lines(cr, view, step_mm, colour_mix(LOOK_GRID, LOOK_PAPER, 0.45));
-	grid_lines(cr, view, 5.0 * step_mm, LOOK_GRID_50);
-	draw_ruler(sheet, cr, view);
-	cairo_rectangle(cr, pane.x, pane.y, 3.0 * sheet->unit, pane.h);
-	ink(cr, 0xb9ae9a, 1.0);
-	cairo_fill(cr);
-}
+/* ---- what was drawn, as a figure ---- */
 
 static uint64_t view_hash(const struct view *view)
 {
@@ -274,16 +174,6 @@ static struct v2 ink_point(const struct ui *ui, int i)
 	return v2_scale(sum, 1.0f / (float)(i - first + 1));
 }
 
-static int next_number(const struct session *session)
-{
-	int number = 1;
-	for (int m = 0; m < MARKS_MAX; m++)
-		for (int k = 0; k < MARKS_MAX; k++)
-			number += session->document.marks.cloth[k].used &&
-				  session->document.marks.cloth[k].number == number;
-	return number;
-}
-
 static void draw_ink(struct sheet *sheet, const struct ui *ui, const struct session *session)
 {
 	cairo_t *cr = sheet->still.cr;
@@ -292,7 +182,7 @@ static void draw_ink(struct sheet *sheet, const struct ui *ui, const struct sess
 	double width = (mark ? 5.0 : 3.0 + 1.6 * (double)ui->pen_pressure) * u;
 	int first = int_max(sheet->ink_count - 1, 0);
 	struct v2 last = ink_point(ui, first);
-	struct rect fresh = around(last, last, width);
+	struct rect fresh = rect_around(last, last, width);
 	if (ui->stroke_count <= sheet->ink_count)
 		return;
 	clip_to(cr, sheet->layer.area);
@@ -300,141 +190,24 @@ static void draw_ink(struct sheet *sheet, const struct ui *ui, const struct sess
 	for (int i = first + 1; i < ui->stroke_count; i++) {
 		struct v2 next = ink_point(ui, i);
 		line_to(cr, next);
-		fresh = join(fresh, around(last, next, width));
+		fresh = rect_join(fresh, rect_around(last, next, width));
 		last = next;
 	}
 	cairo_set_line_width(cr, width);
 	cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
 	cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
-	ink(cr, mark ? look_mark_style(next_number(session))->colour : LOOK_INK, 1.0);
+	ink(cr, mark ? look_mark_style(next_cloth_number(session))->colour : LOOK_INK, 1.0);
 	cairo_stroke(cr);
 	cairo_restore(cr);
 	sheet->ink_count = ui->stroke_count;
-	sheet->ink_area = join(sheet->ink_area, fresh);
+	sheet->ink_area = rect_join(sheet->ink_area, fresh);
 	add_damage(sheet, fresh);
-}
-
-/* ---- what follows the pen ---- */
-
-/* The start of an outline is where it wants to end. */
-static void draw_start(const struct sheet *sheet, const struct ui *ui)
-{
-	cairo_t *cr = sheet->out.cr;
-	double u = sheet->unit;
-	float gap = v2_distance(ui->start_px, ui->steady_px);
-	float length = ui->stroke_count > 40 ? gap : 1e9f;
-	bool near = length < tool_px(ui, 12.0f);
-	disc(cr, (double)ui->start_px.x, (double)ui->start_px.y, (near ? 15.0 : 10.0) * u);
-	ink(cr, near ? LOOK_RELAX : 0xffffff, near ? 0.35 : 0.8);
-	cairo_fill_preserve(cr);
-	cairo_set_line_width(cr, 3.0 * u);
-	ink(cr, near ? LOOK_RELAX : LOOK_INK_GREY, 1.0);
-	cairo_stroke(cr);
-}
-
-static void draw_sewing(const struct easel *easel)
-{
-	const struct ui *ui = easel->ui;
-	cairo_t *cr = easel->cr;
-	double u = easel->unit, dash[2] = {9.0 * u, 8.0 * u};
-	struct edge_ref from = {ui->sew_from.piece, ui->sew_from.edge};
-	struct edge_ref to = {ui->sew_to.piece, ui->sew_to.edge};
-	if (!piece_used(easel->session, from.piece))
-		return;
-	draw_edge_glow(easel, from, LOOK_HINT_RIM);
-	if (piece_used(easel->session, to.piece)) {
-		draw_edge_glow(easel, to, LOOK_HINT_RIM);
-		draw_zip(easel, from, to, false, 1.0);
-		return;
-	}
-	move_to(cr, ui->start_px);
-	line_to(cr, ui->steady_px);
-	cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
-	cairo_set_dash(cr, dash, 2, 0.0);
-	cairo_set_line_width(cr, 4.0 * u);
-	ink(cr, LOOK_INK, 1.0);
-	cairo_stroke(cr);
-	cairo_set_dash(cr, NULL, 0, 0.0);
-}
-
-/* The pen's ring: as large as what it would reach, in the colour of what it would do. */
-static void draw_ring(const struct easel *easel)
-{
-	const struct ui *ui = easel->ui;
-	cairo_t *cr = easel->cr;
-	double u = easel->unit, x = (double)ui->pen_px.x, y = (double)ui->pen_px.y;
-	uint32_t colour = LOOK_INK;
-	if (ui->step == STEP_MARK && !ui->erase && !ui->eraser) {
-		int number = next_number(easel->session);
-		colour = look_mark_style(number)->colour;
-		draw_number(cr, easel->type, number, x + 26.0 * u, y - 24.0 * u, 12.0 * u, true);
-	} else if (ui->pin_mode) {
-		colour = LOOK_PIN;
-	}
-	double radius = ui->step == STEP_DRAW && ui->hover_piece < 0 ? 5.0 * u : 12.0 * u;
-	disc(cr, x, y, radius);
-	cairo_set_line_width(cr, 5.0 * u);
-	ink(cr, 0xffffff, 0.9);
-	cairo_stroke(cr);
-	disc(cr, x, y, radius);
-	cairo_set_line_width(cr, 2.4 * u);
-	ink(cr, colour, 1.0);
-	cairo_stroke(cr);
-}
-
-static bool hovers(const struct ui *ui)
-{
-	return ui->pen_state == PEN_HOVER && ui->hover_target == TARGET_NONE &&
-	       rect_holds(ui->layout.right, ui->pen_px);
-}
-
-/* What draw_live will cover. */
-static struct rect live_extent(const struct easel *easel)
-{
-	const struct ui *ui = easel->ui;
-	const struct v2 none = {0.0f, 0.0f};
-	double u = easel->unit;
-	struct rect area = {0, 0, 0, 0};
-	if (hovers(ui))
-		area = around(ui->pen_px, ui->pen_px, 48.0 * u);
-	if (hovers(ui) && ui->hover_edge >= 0 && piece_used(easel->session, ui->hover_piece))
-		area = join(area, piece_area(easel, ui->hover_piece, none));
-	if (ui->gesture == GESTURE_PIECE)
-		area = join(area, around(ui->start_px, ui->start_px, 20.0 * u));
-	if (ui->gesture == GESTURE_MOVE && piece_used(easel->session, ui->piece))
-		area = join(area, piece_area(easel, ui->piece, ui->move_mm));
-	if (ui->gesture == GESTURE_SEW && piece_used(easel->session, ui->sew_from.piece)) {
-		area = join(area, piece_area(easel, ui->sew_from.piece, none));
-		area = join(area, around(ui->start_px, ui->steady_px, 8.0 * u));
-		if (piece_used(easel->session, ui->sew_to.piece))
-			area = join(area, piece_area(easel, ui->sew_to.piece, none));
-	}
-	return within(area, ui->layout.right);
-}
-
-static void draw_live(const struct sheet *sheet, const struct easel *screen)
-{
-	struct easel easel = *screen;
-	const struct ui *ui = easel.ui;
-	easel.cr = sheet->out.cr;
-	if (ui->gesture == GESTURE_MOVE && piece_used(easel.session, ui->piece))
-		draw_piece(&easel, ui->piece, ui->move_mm, true);
-	if (ui->gesture == GESTURE_SEW)
-		draw_sewing(&easel);
-	if (ui->gesture == GESTURE_PIECE)
-		draw_start(sheet, ui);
-	if (!hovers(ui))
-		return;
-	if (ui->hover_edge >= 0 && piece_used(easel.session, ui->hover_piece))
-		draw_edge_glow(&easel, (struct edge_ref){ui->hover_piece, ui->hover_edge},
-			       LOOK_HINT_RIM);
-	draw_ring(&easel);
 }
 
 static uint64_t live_hash(const struct ui *ui)
 {
 	struct hash hash;
-	bool hover = hovers(ui), drawn = ui->gesture != GESTURE_NONE;
+	bool hover = pen_hovers(ui), drawn = ui->gesture != GESTURE_NONE;
 	struct v2 pen = hover ? ui->pen_px : ui->steady_px;
 	hash_init(&hash);
 	hash_int(&hash, (int)ui->gesture);
@@ -462,7 +235,7 @@ static void update_still(struct sheet *sheet, const struct easel *easel)
 	const struct ui *ui = easel->ui;
 	uint64_t paper = view_hash(&ui->view), still = still_hash(ui, easel->session);
 	if (paper != sheet->paper_hash)
-		draw_paper(sheet, &ui->view);
+		draw_paper(sheet->paper.cr, sheet->type, sheet->unit, &ui->view);
 	if (still != sheet->still_hash) {
 		draw_still(sheet, easel, sheet->layer.area);
 		add_damage(sheet, sheet->layer.area);
@@ -502,7 +275,8 @@ const struct layer *sheet_update(struct sheet *sheet, const struct ui *ui,
 		area.y += layer->area.y;
 		copy_still(sheet, area);
 		clip_to(sheet->out.cr, area);
-		draw_live(sheet, &easel);
+		easel.cr = sheet->out.cr;
+		draw_live(&easel);
 		cairo_restore(sheet->out.cr);
 	}
 	cairo_surface_flush(sheet->out.surface);

@@ -166,3 +166,30 @@ void draw_number(cairo_t *cr, struct type *type, int number, double x, double y,
 	}
 	draw_text(cr, type, text, x, y + 0.5 * radius_px, &style);
 }
+
+struct rect rect_join(struct rect a, struct rect b)
+{
+	if (a.w <= 0)
+		return b;
+	if (b.w <= 0)
+		return a;
+	int right = int_max(a.x + a.w, b.x + b.w), bottom = int_max(a.y + a.h, b.y + b.h);
+	int x = int_min(a.x, b.x), y = int_min(a.y, b.y);
+	return (struct rect){x, y, right - x, bottom - y};
+}
+
+struct rect rect_within(struct rect a, struct rect outer)
+{
+	int x = int_max(a.x, outer.x), y = int_max(a.y, outer.y);
+	int right = int_min(a.x + a.w, outer.x + outer.w);
+	int bottom = int_min(a.y + a.h, outer.y + outer.h);
+	return (struct rect){x, y, int_max(right - x, 0), int_max(bottom - y, 0)};
+}
+
+struct rect rect_around(struct v2 a, struct v2 b, double margin)
+{
+	double x = (double)float_min(a.x, b.x) - margin, y = (double)float_min(a.y, b.y) - margin;
+	double right = (double)float_max(a.x, b.x) + margin;
+	double bottom = (double)float_max(a.y, b.y) + margin;
+	return (struct rect){(int)x - 1, (int)y - 1, (int)(right - x) + 3, (int)(bottom - y) + 3};
+}

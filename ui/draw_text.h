@@ -66,6 +66,13 @@ static inline void disc(cairo_t *cr, double x, double y, double radius)
 void round_box(cairo_t *cr, double x, double y, double w, double h, double radius);
 void round_rect(cairo_t *cr, struct rect rect, double radius);
 
+/* The smallest rectangle with both in it; an empty one adds nothing. */
+struct rect rect_join(struct rect a, struct rect b);
+struct rect rect_within(struct rect a, struct rect outer);
+
+/* What a line from a to b covers, with a margin. */
+struct rect rect_around(struct v2 a, struct v2 b, double margin);
+
 /* a towards b by t, channel by channel. */
 uint32_t colour_mix(uint32_t a, uint32_t b, double t);
 
