@@ -1,6 +1,8 @@
 #include "garment.h"
 #include "garment_private.h"
 
+enum { NEIGHBOURS_MAX = 96 };
+
 struct garment_job {
 	struct garment *garment;
 	const struct pattern *pattern;
@@ -148,20 +150,62 @@ static int edge_vertex(const struct garment_job *job, const struct plan_edge *ed
 	return job->garment->piece_first[edge->piece] + (i < count ? i : i - count);
 }
 
+/* The corners of all triangles of a piece at v; how many there are. */
+static int neighbours(const struct garment *garment, int piece, int v, int list[NEIGHBOURS_MAX])
+{
+	int count = 0;
+	for (int t = garment->piece_first_triangle[piece];
+	     t < garment->piece_first_triangle[piece + 1]; t++) {
+		const int *corner = garment->triangle[t].v;
+		if (corner[0] != v && corner[1] != v && corner[2] != v)
+			continue;
+		for (int k = 0; k < 3 && count < NEIGHBOURS_MAX; k++)
+			list[count++] = corner[k];
+	}
+	return count;
+}
+
+/* Where two edges of one piece are sewn together, their samples v and w may be neighbours, or have
+ * a neighbour in common: at the tip of a cone, across a narrow strip. Joining them would fold
+ * triangles to a line or onto each other (the link condition of Dey et al. 1999), so that such
+ * places stay open. The corner that both edges share is no such neighbour. */
+static bool too_close(const struct garment *garment, int piece, int v, int w, const int corner[2])
+{
+	int around_v[NEIGHBOURS_MAX], around_w[NEIGHBOURS_MAX];
+	int v_count = neighbours(garment, piece, v, around_v);
+	int w_count = neighbours(garment, piece, w, around_w);
+	for (int i = 0; i < v_count; i++)
+		for (int k = 0; k < w_count; k++)
+			if (around_v[i] == around_w[k] && around_v[i] != corner[0] &&
+			    around_v[i] != corner[1])
+				return true;
+	return false;
+}
+
+static void sew_group(struct garment_job *job, const struct plan_group *group)
+{
+	const struct plan_edge *a = &job->plan.edge[group->side[0]];
+	const struct plan_edge *b = &job->plan.edge[group->side[1]];
+	int last = group->segments, corner[2] = {-1, -1};
+	for (int end = 0; end < 2; end++) {
+		int v = edge_vertex(job, a, last, end * last);
+		if (v == edge_vertex(job, b, last, end * last))
+			corner[end] = v;
+	}
+	for (int k = 0; k <= last; k++) {
+		int v = edge_vertex(job, a, last, k), w = edge_vertex(job, b, last, k);
+		if (a->piece != b->piece || !too_close(job->garment, a->piece, v, w, corner))
+			join(job->garment, v, w, group->seam);
+	}
+}
+
 static long sew(struct garment_job *job)
 {
 	struct garment *garment = job->garment;
 	const struct plan *plan = &job->plan;
-	for (int g = 0; g < plan->group_count; g++) {
-		const struct plan_group *group = &plan->group[g];
-		if (group->side_count < 2)
-			continue;
-		for (int k = 0; k <= group->segments; k++)
-			join(garment,
-			     edge_vertex(job, &plan->edge[group->side[0]], group->segments, k),
-			     edge_vertex(job, &plan->edge[group->side[1]], group->segments, k),
-			     group->seam);
-	}
+	for (int g = 0; g < plan->group_count; g++)
+		if (plan->group[g].side_count == 2)
+			sew_group(job, &plan->group[g]);
 	for (int v = 0; v < garment->vertex_count; v++)
 		garment->weld[v] = weld_root(garment, v);
 	return garment->vertex_count + garment->pair_count;

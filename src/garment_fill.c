@@ -149,14 +149,17 @@ static void mark_row(struct fill *fill, const struct row *row, struct grid_point
 
 static void add_lattice_row(struct fill *fill, struct mesh *mesh, long *units)
 {
+	/* Mirrored about the middle of the piece, so that both halves of a shirt drape alike. */
 	int64_t rise = (int64_t)fill->spacing * 887 / 1024; /* half the root of 3 */
-	int64_t y = fill->low.y + rise / 2 + rise * fill->cursor;
+	int64_t y = fill->low.y + rise * (fill->cursor + 1);
 	if (y > fill->high.y) {
 		enter(fill, FILL_REFINE);
 		return;
 	}
-	struct row row = {(int32_t)y, fill->low.x + (fill->cursor & 1 ? fill->spacing / 2 : 0), 0};
-	row.columns = int_min((fill->high.x - fill->low.x) / fill->spacing + 1, FILL_COLUMNS_MAX);
+	int32_t width = fill->high.x - fill->low.x, odd = fill->cursor & 1;
+	int32_t half_columns = int_min(width / 2 / fill->spacing + 1, FILL_COLUMNS_MAX / 2 - 1);
+	struct row row = {.y = (int32_t)y, .columns = 2 * half_columns + 1 + odd};
+	row.left = fill->low.x + width / 2 - half_columns * fill->spacing - odd * fill->spacing / 2;
 	fill->cursor++;
 	memset(fill->parity, 0, (size_t)(row.columns + 1) * sizeof *fill->parity);
 	memset(fill->shut, 0, (size_t)(row.columns + 1) * sizeof *fill->shut);
@@ -216,6 +219,12 @@ static bool encroaches(const struct mesh *mesh, struct grid_point p, int half)
 	return false;
 }
 
+bool fill_holds(const struct fill *fill, struct grid_point p)
+{
+	return p.x >= fill->low.x && p.x <= fill->high.x && p.y >= fill->low.y &&
+	       p.y <= fill->high.y;
+}
+
 static bool refine_triangle(struct fill *fill, struct mesh *mesh, int half, long *units)
 {
 	*units += 1;
@@ -229,6 +238,8 @@ static bool refine_triangle(struct fill *fill, struct mesh *mesh, int half, long
 	if (quality >= REFINE_QUALITY && radius < REFINE_RADIUS * (float)fill->spacing)
 		return false;
 	if (triangle_forced(mesh, half) || mesh->point_count >= fill->point_limit)
+		return false;
+	if (!fill_holds(fill, centre))
 		return false;
 	int at = mesh_locate(mesh, centre, half, units);
 	if (!mesh->inside[at / 3] || encroaches(mesh, centre, at))

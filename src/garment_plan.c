@@ -17,6 +17,8 @@ enum {
 #define ARC_BY_CHORD 1.04f   /* a sixth of a circle */
 #define NEIGHBOUR_RATIO 2.2f /* halving gets at most that near to even */
 #define WIDTH_BY_LENGTH 0.5f /* about the tangent of 25 degrees */
+#define FACING_RATIO 1.5f    /* of segments that face each other, and */
+#define GRADING 0.7f         /* so much longer for each unit between them */
 #define FULL_SHARE 0.9f      /* of the vertices: the rest is for narrow places */
 #define SHARP_COSINE 0.9f    /* 26 degrees: such a corner is narrow, and that's meant */
 
@@ -235,8 +237,8 @@ static bool sharp_between(const struct loop *loop, int i, int k)
 	return loop->sharp[loop->count] > between;
 }
 
-/* Does segment k come closer to the middle of segment i, across cloth, than a well-shaped triangle
- * on i would reach? */
+/* Does segment k, across cloth, come closer to the middle of segment i than a well-shaped triangle
+ * on i would reach? Or is it too much shorter for triangles between the two to be even? */
 static bool narrow(const struct loop *loop, int i, int k, float length)
 {
 	struct grid_point a = loop->point[i], b = loop_point(loop, i + 1);
@@ -249,7 +251,8 @@ static bool narrow(const struct loop *loop, int i, int k, float length)
 		return false;
 	float share = float_clamp(v2_dot(v2_sub(middle, from), along) / squared, 0.0f, 1.0f);
 	struct v2 nearest = v2_add(from, v2_scale(along, share));
-	if (v2_distance(nearest, middle) >= WIDTH_BY_LENGTH * length)
+	float distance = v2_distance(nearest, middle), graded = sqrtf(squared) * FACING_RATIO;
+	if (distance >= WIDTH_BY_LENGTH * length && length <= graded + GRADING * distance)
 		return false;
 	return v2_cross(middle, nearest) > 0.0f && v2_cross(along, v2_sub(middle, from)) > 0.0f &&
 	       !sharp_between(loop, i, k);
@@ -261,7 +264,7 @@ static enum verdict judge_against_all(const struct loop *loop, int i, float leng
 {
 	struct grid_point a = loop->point[i], b = loop_point(loop, i + 1);
 	int32_t x = a.x + (b.x - a.x) / 2, y = a.y + (b.y - a.y) / 2;
-	int32_t reach = (int32_t)(0.5f * length) + 2;
+	int32_t reach = (int32_t)(length / GRADING) + 2;
 	enum verdict verdict = FITS;
 	for (int k = 0; k < loop->count; k++) {
 		struct grid_point c = loop->point[k], d = loop_point(loop, k + 1);

@@ -137,6 +137,9 @@ void fill_start(struct fill *fill, struct mesh *mesh, const struct grid_point *b
 		float edge_mm, int point_limit);
 long fill_advance(struct fill *fill, struct mesh *mesh, long quota);
 
+/* Is p in the box of the outline? Points outside it can't be located. */
+bool fill_holds(const struct fill *fill, struct grid_point p);
+
 /* garment_smooth.c. Each handles one mesh point or triangle and returns whether it changed
  * anything. */
 bool smooth_point(struct fill *fill, struct mesh *mesh, int v, long *units);

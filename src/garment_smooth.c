@@ -1,7 +1,7 @@
 /* Moving the free points of a mesh to better places. */
 #include "garment_private.h"
 
-enum { STAR_MAX = 64 };
+enum { STAR_MAX = 64, CAVITY_MAX = 32 };
 
 #define STILL 0.02f        /* of the spacing: a shorter move wakes nobody */
 #define MEND_QUALITY 0.25f /* squared sine of 30 degrees */
@@ -161,17 +161,105 @@ static bool climb(struct fill *fill, struct mesh *mesh, int v, long *units)
 	return true;
 }
 
+/* Which triangles a point would replace (Bowyer 1981, Watson 1981): those whose circles hold it, as
+ * far as the outline lets it see. */
+struct cavity {
+	int count;
+	int half[CAVITY_MAX]; /* a half-edge of each */
+};
+
+static bool cavity_has(const struct cavity *cavity, int half)
+{
+	for (int i = 0; i < cavity->count; i++)
+		if (cavity->half[i] / 3 == half / 3)
+			return true;
+	return false;
+}
+
+static bool cavity_grow(struct cavity *cavity, const struct mesh *mesh, struct grid_point p)
+{
+	for (int i = 0; i < cavity->count; i++) {
+		int first = cavity->half[i] - cavity->half[i] % 3;
+		for (int k = first; k < first + 3; k++) {
+			int twin = mesh->twin[k];
+			if (mesh->fixed[k] || twin < 0 || cavity_has(cavity, twin) ||
+			    !grid_in_circle(mesh->point[mesh->origin[twin]],
+					    mesh->point[mesh->origin[mesh_next(twin)]],
+					    mesh->point[mesh->origin[mesh_previous(twin)]], p))
+				continue;
+			if (cavity->count == CAVITY_MAX)
+				return false;
+			cavity->half[cavity->count++] = twin;
+		}
+	}
+	return true;
+}
+
+/* The worst triangle that adding p near `half` would make; 0 when it can't be added. */
+static float worst_if_added(const struct mesh *mesh, struct grid_point p, int half, long *units)
+{
+	int at = mesh_locate(mesh, p, half, units);
+	struct cavity cavity = {.count = 1, .half = {at}};
+	if (!mesh->inside[at / 3] || !cavity_grow(&cavity, mesh, p) || !cavity_has(&cavity, half))
+		return 0.0f;
+	float worst = 1.0f;
+	for (int i = 0; i < cavity.count; i++) {
+		int first = cavity.half[i] - cavity.half[i] % 3;
+		for (int k = first; k < first + 3; k++) {
+			if (!mesh->fixed[k] && cavity_has(&cavity, mesh->twin[k]))
+				continue;
+			worst = float_min(
+				worst, triangle_quality(p, mesh->point[mesh->origin[k]],
+							mesh->point[mesh->origin[mesh_next(k)]]));
+		}
+	}
+	*units += cavity.count;
+	return worst;
+}
+
+/* Some triangles between outline points no moving of points can cure: a new point near them can.
+ * Tries places on the lines from each corner through the middle of the opposite side. */
+static bool add_cure(struct fill *fill, struct mesh *mesh, int half, float quality, long *units)
+{
+	struct grid_point best = {0};
+	float best_quality = quality;
+	for (int side = half; side < half + 3; side++) {
+		struct grid_point a = mesh->point[mesh->origin[side]];
+		struct grid_point b = mesh->point[mesh->origin[mesh_next(side)]];
+		struct grid_point c = mesh->point[mesh->origin[mesh_previous(side)]];
+		int32_t x = a.x + (b.x - a.x) / 2, y = a.y + (b.y - a.y) / 2;
+		for (int k = -2; k <= 8; k++) {
+			struct grid_point p = {x + (x - c.x) / 8 * k, y + (y - c.y) / 8 * k};
+			if (!fill_holds(fill, p))
+				continue;
+			float worst = worst_if_added(mesh, p, half, units);
+			if (worst > best_quality) {
+				best_quality = worst;
+				best = p;
+			}
+		}
+	}
+	if (best_quality <= quality || mesh->point_count >= fill->point_limit ||
+	    !mesh_add(mesh, best, half, units))
+		return false;
+	climb(fill, mesh, mesh->point_count - 1, units);
+	return true;
+}
+
 bool mend_triangle(struct fill *fill, struct mesh *mesh, int half, long *units)
 {
 	if (!mesh->inside[half / 3])
 		return false;
 	int corner[3] = {mesh->origin[half], mesh->origin[half + 1], mesh->origin[half + 2]};
-	if (triangle_quality(mesh->point[corner[0]], mesh->point[corner[1]],
-			     mesh->point[corner[2]]) >= MEND_QUALITY)
+	float quality = triangle_quality(mesh->point[corner[0]], mesh->point[corner[1]],
+					 mesh->point[corner[2]]);
+	if (quality >= MEND_QUALITY)
 		return false;
 	bool changed = false;
 	for (int k = 0; k < 3; k++)
 		if (corner[k] >= MESH_FRAME_POINTS + fill->boundary_count)
 			changed |= climb(fill, mesh, corner[k], units);
-	return changed;
+	if (changed || triangle_forced(mesh, half))
+		return changed;
+	return add_cure(fill, mesh, half, quality, units);
 }

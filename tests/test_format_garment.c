@@ -179,12 +179,12 @@ static void check_mesh(const char *name)
 		garment_advance(job, 100000, &done);
 	struct figures figures;
 	figures_measure(&figures, &garment);
-	if (figures.angle_mean_deg < 50.0f || figures.below_25 > 5)
+	if (figures.angle_mean_deg < 50.0f || figures.below_25 > 0)
 		fprintf(stderr, "%s: mean %.1f, %d below 25\n", name,
 			(double)figures.angle_mean_deg, figures.below_25);
 	CHECK(figures.clockwise == 0 && figures.bad_edges == 0 && figures.collapsed == 0);
 	CHECK(figures.angle_mean_deg >= 50.0f);
-	CHECK(figures.below_25 <= 5);
+	CHECK(figures.below_25 == 0);
 }
 
 static int test_real(void)

@@ -124,10 +124,24 @@ static void test_dart(void)
 	}
 }
 
+/* A cone: neighbouring edges sewn together. No triangle becomes a line. */
+static void test_cone(void)
+{
+	for (int half = 100; half <= 700; half += 200) {
+		struct v2 point[] = {{0, 500}, {-(float)half, 0}, {(float)half, 0}};
+		memset(&pattern, 0, sizeof pattern);
+		add_piece(0, point, 3);
+		pattern.seam[0] = (struct seam){true, false, {0, 0}, {0, 2}};
+		CHECK(mesh_with(500, 1000));
+		check_sound();
+		CHECK(garment.pair_count > 5);
+	}
+}
+
 /* Straps and bindings: long, and narrower than an edge. */
 static void test_narrow(void)
 {
-	for (int width = 8; width <= 40; width += 4) {
+	for (int width = 4; width <= 40; width += 4) {
 		struct v2 point[] = {{0, 0},
 				     {900, 0},
 				     {900, (float)width},
@@ -208,6 +222,7 @@ int main(void)
 	test_tube();
 	test_quota_changes_nothing();
 	test_dart();
+	test_cone();
 	test_narrow();
 	test_refusals();
 	test_locate();
