@@ -158,6 +158,21 @@ static void begin_at(struct piece *piece, struct v2 first)
 	*piece = turned;
 }
 
+/* A pen that rests where it starts or stops leaves a hook there; what lies within a corner's reach of
+ * the ends is taken for the end itself. */
+static void drop_hooks(struct piece *made, struct v2 a, struct v2 b)
+{
+	int kept = 0;
+	for (int i = 0; i < made->point_count; i++) {
+		struct v2 p = made->point_mm[i];
+		if (i > 0 && (v2_distance(p, a) < CORNER_MM || v2_distance(p, b) < CORNER_MM))
+			continue;
+		made->point_mm[kept] = p;
+		made->corner[kept++] = made->corner[i];
+	}
+	made->point_count = kept;
+}
+
 /* The new outline: the trace from a to b, then what is kept from b to a. */
 static const char *replace_arc(struct piece *piece, const struct place *a, const struct place *b,
 			       const struct trace *trace)
@@ -166,8 +181,9 @@ static const char *replace_arc(struct piece *piece, const struct place *a, const
 	struct piece made = *piece;
 	made.point_count = 0;
 	runs_find_open(&runs, trace);
-	if (!outline_add(&made, &runs, trace, a->mm, b->mm) ||
-	    made.point_count == OUTLINE_POINTS_MAX || !keep_rest(&made, piece, b, a))
+	bool fits = outline_add(&made, &runs, trace, a->mm, b->mm);
+	drop_hooks(&made, a->mm, b->mm);
+	if (!fits || made.point_count == OUTLINE_POINTS_MAX || !keep_rest(&made, piece, b, a))
 		return "the outline has too many points: draw it simpler";
 	begin_at(&made, piece->point_mm[0]);
 	const char *fault = piece_fault(&made);

@@ -267,13 +267,13 @@ static void visit(struct hand *hand)
 	hand_wait(hand, 1.5f);
 
 	hand_tap_target(hand, TARGET_STEP_ADJUST);
-	pull(hand, (struct v2){60.0f, -640.0f}, (struct v2){60.0f, -10.0f});
+	pull(hand, (struct v2){60.0f, -640.0f}, (struct v2){24.0f, 5.0f});
 	hand_wait(hand, 0.5f);
 	say(hand, "hem pulled");
 
 	pin_at(hand, (struct v2){210.0f, -120.0f});
 	pin_at(hand, (struct v2){250.0f, -190.0f});
-	pull(hand, (struct v2){330.0f, -215.0f}, (struct v2){-45.0f, -60.0f});
+	pull(hand, (struct v2){330.0f, -215.0f}, (struct v2){-22.0f, -30.0f});
 	hand_wait(hand, 0.5f);
 	say(hand, "sleeve rolled");
 
