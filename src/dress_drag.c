@@ -14,7 +14,12 @@
 enum { NEIGHBOURS_MAX = 6 * GARMENT_TRIANGLES_MAX };
 
 static const float pin_block_m = 0.025f;
+static const float grip_m = 0.03f;  /* what the fingers hold */
+static const float near_m = 0.03f;  /* cloth nearer to the body than this follows its surface */
 static const float loose_m = 0.06f; /* cloth farther from the body than this follows in space */
+static const float hand_region_m = 0.08f;
+static const float strain_free = 0.10f, strain_most = 0.25f;
+static const float yield_fall = 0.5f, yield_rise = 0.03f, yield_spread = 0.2f;
 
 struct heap_item {
 	float distance_m;
@@ -25,11 +30,16 @@ struct drag_scratch {
 	int *first; /* per particle + 1: its neighbours */
 	int *fill;
 	int *neighbour;
+	float *rest_m; /* per neighbour: how long the edge is on the flat piece */
 	struct heap_item *heap;
 	int heap_count;
 	float *pin_distance_m;
 	uint8_t *settled;
 	uint8_t *blocked;
+	uint8_t *gripped;
+	struct v3 *normal; /* of the body, under each particle */
+	struct v3 *left_m; /* where the last move left it */
+	float *yield;      /* 0..1: how far it followed lately */
 };
 
 void drag_init(struct drag *drag, struct arena *arena)
@@ -46,6 +56,11 @@ void drag_init(struct drag *drag, struct arena *arena)
 	scratch->first = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX + 1);
 	scratch->fill = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
 	scratch->neighbour = ARENA_ARRAY(arena, int, NEIGHBOURS_MAX);
+	scratch->rest_m = ARENA_ARRAY(arena, float, NEIGHBOURS_MAX);
+	scratch->normal = ARENA_ARRAY(arena, struct v3, GARMENT_VERTICES_MAX);
+	scratch->left_m = ARENA_ARRAY(arena, struct v3, GARMENT_VERTICES_MAX);
+	scratch->yield = ARENA_ARRAY(arena, float, GARMENT_VERTICES_MAX);
+	scratch->gripped = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
 	scratch->heap = ARENA_ARRAY(arena, struct heap_item, NEIGHBOURS_MAX);
 	scratch->pin_distance_m = ARENA_ARRAY(arena, float, GARMENT_VERTICES_MAX);
 	scratch->settled = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
@@ -70,8 +85,15 @@ static void build_neighbours(struct drag_scratch *s, const struct cloth *cloth)
 				int a = v[k % 3], b = v[(k % 3 + 1 + k / 3) % 3];
 				if (pass == 0)
 					s->first[a + 1]++;
-				else
+				else {
+					const int *r = garment->triangle[t].v;
+					s->rest_m[s->fill[a]] = float_max(
+						v2_distance(garment->rest_m[r[k % 3]],
+							    garment->rest_m[r[(k % 3 + 1 + k / 3) %
+									      3]]),
+						1e-5f);
 					s->neighbour[s->fill[a]++] = b;
+				}
 			}
 		}
 		if (pass == 1)
@@ -231,11 +253,28 @@ static void share_motion(struct drag *drag)
 	}
 }
 
+/* The grabbed triangle and what lies within the fingers, but no pin's cloth. */
+static void take_grip(struct drag *drag)
+{
+	struct drag_scratch *s = drag->scratch;
+	for (int k = 0; k < drag->order_count; k++) {
+		int a = drag->order[k];
+		s->gripped[a] = drag->distance_m[a] <= grip_m && !drag->cloth->held[a];
+		s->yield[a] = 1.0f;
+		s->left_m[a] = drag->cloth->position_m[a];
+		drag->motion_m[a] = (struct v3){0.0f, 0.0f, 0.0f};
+	}
+}
+
 static void hold_grabbed(struct drag *drag, bool hold)
 {
 	struct cloth *cloth = drag->cloth;
-	for (int k = 0; k < 3; k++) {
-		int particle = cloth->triangle[drag->triangle].v[k];
+	for (int k = 0; k < drag->order_count; k++) {
+		int particle = drag->order[k];
+		if (drag->distance_m[particle] > grip_m)
+			break;
+		if (!drag->scratch->gripped[particle])
+			continue;
 		cloth->held[particle] = hold;
 		cloth->goal_m[particle] = cloth->position_m[particle];
 	}
@@ -258,6 +297,7 @@ void drag_begin(struct drag *drag, struct cloth *cloth, const struct pin *pins, 
 	drag->order_count = search(s, cloth, drag->distance_m, drag->order, s->blocked);
 	link_graph(drag);
 	share_motion(drag);
+	take_grip(drag);
 	hold_grabbed(drag, true);
 }
 
@@ -291,52 +331,123 @@ static struct v3 transport(struct v3 v, struct v3 a, struct v3 b)
 	return v3_mad(v3_mad(v, sum, -v3_dot(sum, v) / one_plus_cosine), b, 2.0f * along);
 }
 
+/* The body's normal under a particle, interpolated between vertices: facets would make the motion
+ * jump from particle to particle. The weights are signed areas over the facet. */
 static struct v3 normal_under(const struct cloth *cloth, int particle)
 {
-	return cloth->contact[particle].normal;
+	const struct contact *contact = &cloth->contact[particle];
+	const struct body *body = cloth->body;
+	if (contact->triangle < 0)
+		return contact->normal;
+	const int *v = body->triangle[contact->triangle].v;
+	struct v3 n = body->face_normal[contact->triangle], q = contact->point_m;
+	struct v3 a = v3_sub(body->position_m[v[0]], q), b = v3_sub(body->position_m[v[1]], q);
+	struct v3 c = v3_sub(body->position_m[v[2]], q);
+	float weight_a = v3_dot(v3_cross(b, c), n), weight_b = v3_dot(v3_cross(c, a), n);
+	float weight_c = v3_dot(v3_cross(a, b), n);
+	struct v3 sum = v3_scale(body->normal[v[0]], weight_a);
+	sum = v3_mad(v3_mad(sum, body->normal[v[1]], weight_b), body->normal[v[2]], weight_c);
+	sum = v3_normalize(sum);
+	return v3_dot(sum, n) > 0.0f ? sum : n;
 }
 
-/* The pen's pull at the grabbed point: along the surface where the cloth lies on the body. */
+/* How far the cloth near the hand is stretched, as a share of what is allowed: 0 none, 1 all. */
+static float strain_at_hand(const struct drag *drag)
+{
+	const struct drag_scratch *s = drag->scratch;
+	const struct v3 *x = drag->cloth->position_m;
+	float sum = 0.0f;
+	int count = 0;
+	for (int k = 0; k < drag->order_count; k++) {
+		int a = drag->order[k];
+		if (drag->distance_m[a] > hand_region_m)
+			break;
+		for (int i = s->first[a]; i < s->first[a + 1]; i++) {
+			float rest = s->rest_m[i];
+			float stretch = v3_distance(x[a], x[s->neighbour[i]]) / rest - 1.0f;
+			sum += float_max(stretch, 0.0f) * float_max(stretch, 0.0f);
+			count++;
+		}
+	}
+	return count > 0 ? sqrtf(sum / (float)count) : 0.0f;
+}
+
+/* The pen's pull at the grabbed point: along the surface where the cloth lies on the body, and
+ * the weaker the more the cloth there is stretched. */
 static struct v3 pull_m(const struct drag *drag, struct v3 target_m)
 {
 	const struct cloth *cloth = drag->cloth;
 	struct v3 pull = v3_sub(target_m, drag_point(drag));
 	int nearest = cloth->triangle[drag->triangle].v[0];
-	if (cloth->contact[nearest].distance_m < loose_m) {
-		struct v3 normal = normal_under(cloth, nearest);
-		pull = v3_mad(pull, normal, -v3_dot(pull, normal));
-	}
-	float length = v3_length(pull), most = (float)DRAG_STEP_MAX_MM * 0.001f;
+	float away = (cloth->contact[nearest].distance_m - near_m) / (loose_m - near_m);
+	struct v3 normal = drag->scratch->normal[nearest];
+	float flat = 1.0f - float_clamp(away, 0.0f, 1.0f);
+	pull = v3_mad(pull, normal, -flat * v3_dot(pull, normal));
+	float tight = (strain_at_hand(drag) - strain_free) / (strain_most - strain_free);
+	float most = (float)DRAG_STEP_MAX_MM * 0.001f * (1.0f - float_clamp(tight, 0.0f, 1.0f));
+	float length = v3_length(pull);
 	return length > most ? v3_scale(pull, most / length) : pull;
 }
 
-static struct v3 handed_on(const struct drag *drag, int k)
+/* What the hands say in the mean, turned from their mean tangent plane into the particle's. The
+ * mean of vectors that agree keeps their length; where fronts meet that disagree it is shorter. */
+static struct v3 handed_on(const struct drag *drag, int k, float *yield)
 {
-	const struct cloth *cloth = drag->cloth;
-	int a = drag->order[k];
-	struct v3 motion = {0.0f, 0.0f, 0.0f};
+	const struct drag_scratch *s = drag->scratch;
+	struct v3 motion = {0.0f, 0.0f, 0.0f}, normal = {0.0f, 0.0f, 0.0f};
+	float length = 0.0f;
+	*yield = 0.0f;
 	for (int i = drag->from_first[k]; i < drag->from_first[k + 1]; i++) {
 		int b = drag->from[i];
-		struct v3 turned = transport(drag->motion_m[b], normal_under(cloth, b),
-					     normal_under(cloth, a));
-		motion = v3_mad(motion, turned, drag->from_share[i]);
+		motion = v3_mad(motion, drag->motion_m[b], drag->from_share[i]);
+		normal = v3_mad(normal, s->normal[b], drag->from_share[i]);
+		length += drag->from_share[i] * v3_length(drag->motion_m[b]);
+		*yield += drag->from_share[i] * s->yield[b];
 	}
-	return motion;
+	float mean = v3_length(motion);
+	if (mean < 1e-9f)
+		return motion;
+	float keep = float_min(length / mean, 1.0f + 0.2f * mean / length);
+	motion = v3_scale(motion, keep);
+	return transport(motion, v3_normalize(normal), s->normal[drag->order[k]]);
+}
+
+/* A particle that the cloth or the body took back since the last move follows less in the next;
+ * one that went along follows more again. */
+static void learn_yield(struct drag *drag, int a)
+{
+	struct drag_scratch *s = drag->scratch;
+	struct v3 step = v3_scale(drag->motion_m[a], drag->share[a] * s->yield[a]);
+	struct v3 back = v3_sub(s->left_m[a], drag->cloth->position_m[a]);
+	float square = v3_dot(step, step);
+	float opposed = square > 1e-10f ? float_clamp(v3_dot(back, step) / square, -1.0f, 1.0f)
+					: 0.0f;
+	s->yield[a] = float_clamp(s->yield[a] * (1.0f - yield_fall * opposed) + yield_rise, 0.0f,
+				  1.0f);
 }
 
 long drag_move(struct drag *drag, struct v3 target_m)
 {
 	MUST(drag->active);
 	struct cloth *cloth = drag->cloth;
+	struct drag_scratch *s = drag->scratch;
+	for (int k = 0; k < drag->order_count; k++)
+		s->normal[drag->order[k]] = normal_under(cloth, drag->order[k]);
 	struct v3 pull = pull_m(drag, target_m);
 	for (int k = 0; k < drag->order_count; k++) {
 		int a = drag->order[k];
 		bool source = drag->distance_m[a] == 0.0f;
-		drag->motion_m[a] = source ? pull : handed_on(drag, k);
-		struct v3 step = v3_scale(drag->motion_m[a], drag->share[a]);
+		float handed_yield = 1.0f;
+		if (!source)
+			learn_yield(drag, a);
+		drag->motion_m[a] = source ? pull : handed_on(drag, k, &handed_yield);
+		if (!source)
+			s->yield[a] += yield_spread * (handed_yield - s->yield[a]);
+		struct v3 step = v3_scale(drag->motion_m[a], drag->share[a] * s->yield[a]);
 		cloth->position_m[a] = v3_add(cloth->position_m[a], step);
 		cloth->previous_m[a] = v3_add(cloth->previous_m[a], step);
+		s->left_m[a] = cloth->position_m[a];
 	}
 	hold_grabbed(drag, true);
-	return drag->order_count + drag->from_first[drag->order_count];
+	return 2 * drag->order_count + drag->from_first[drag->order_count];
 }
