@@ -3,6 +3,7 @@
 
 static const float deep_m = 1e-4f;   /* less is touching */
 static const float facing_m = 0.06f; /* beyond, cloth hangs freely and may face anything */
+static const float behind_m = 0.25f; /* cloth this far before a body belongs to it */
 
 struct measure_scratch *measure_init(struct arena *arena)
 {
@@ -139,6 +140,19 @@ static void measure_edges(struct measure *measure, const struct cloth *cloth,
 	}
 }
 
+/* Does the outside of a triangle look at the body near it, and its inside at none? Cloth of the
+ * trunk that hangs under an arm looks at the arm too, but has the trunk behind it; a crease that
+ * goes into the armpit stands about square to the body. */
+static bool is_inverted(const struct cloth *cloth, struct v3 centre, struct v3 normal,
+			const struct body_hit *nearest)
+{
+	struct body_hit behind;
+	if (nearest->distance_m > facing_m || v3_dot(normal, nearest->normal) > -0.5f)
+		return false;
+	return !body_ray(cloth->body, centre, v3_scale(normal, -1.0f), &behind) ||
+	       behind.distance_m > behind_m;
+}
+
 static void measure_faces(struct measure *measure, const struct cloth *cloth)
 {
 	struct body_hit hit;
@@ -151,9 +165,8 @@ static void measure_faces(struct measure *measure, const struct cloth *cloth)
 		struct v3 centre = v3_scale(v3_add(v3_add(a, b), c), 1.0f / 3.0f);
 		measure->triangles++;
 		count_depth(measure, look(cloth, centre, v[0], &hit), &measure->centres_inside);
-		struct v3 normal = v3_cross(v3_sub(b, a), v3_sub(c, a));
-		measure->inverted_triangles += float_abs(hit.distance_m) < facing_m &&
-					       v3_dot(normal, hit.normal) < 0.0f;
+		struct v3 normal = v3_normalize(v3_cross(v3_sub(b, a), v3_sub(c, a)));
+		measure->inverted_triangles += is_inverted(cloth, centre, normal, &hit);
 	}
 }
 

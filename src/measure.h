@@ -34,8 +34,9 @@ struct measure {
 	int edge_crossings_body;
 	float strain_p95, strain_max; /* larger principal stretch minus 1; over triangles */
 	float compression_p95;        /* 1 minus the smaller one */
-	int inverted_triangles;       /* facing the body within 60 mm of it */
-	int self_intersections;       /* pairs of triangles without a common corner that cross */
+	int inverted_triangles; /* their outside looks at the body within 60 mm (by more than 120
+				   degrees off its normal), and no body lies behind within 250 mm */
+	int self_intersections; /* pairs of triangles without a common corner that cross */
 	float seam_gap_mm_max;
 	int loop_count;
 	struct loop_link loop[LOOPS_MAX]; /* longest first */
