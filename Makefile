@@ -136,6 +136,14 @@ programs: $(TESTS) $(BENCH) $(TOOLS)
 bench: $(BENCH) $(TOOLS)
 	@for bench in $(BENCH); do $$bench || exit; done
 
+# What others need for the same mesh. Not part of anything else: CGAL is large.
+bench-peer: $(B)/tests/bench_mesh
+	@echo '#include <CGAL/Delaunay_mesher_2.h>' | $(CXX) -E -x c++ - >/dev/null 2>&1 || \
+		{ echo 'bench-peer: CGAL is missing; install libcgal-dev'; exit 1; }
+	$(CXX) -O2 -DNDEBUG tests/peer_mesh_cgal.cpp -o $(B)/tests/peer_mesh_cgal -lgmp
+	$(B)/tests/peer_mesh_cgal
+	$(B)/tests/bench_mesh
+
 fuzz:
 	$(SUBMAKE) config=fuzz CC=clang fuzzers
 	@tests/check-fuzz.sh $(build)/fuzz $(FUZZ_SECONDS)
@@ -156,7 +164,7 @@ help:
 clean:
 	rm -rf $(build)
 
-.PHONY: all run check tests programs check-layers check-imports bench fuzz fuzzers hash-matrix format \
+.PHONY: all run check tests programs check-layers check-imports bench bench-peer fuzz fuzzers hash-matrix format \
         format-check help clean
 .SECONDARY:
 -include $(patsubst %.c,$(B)/%.d,$(ALL))
