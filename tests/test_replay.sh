@@ -1,0 +1,52 @@
+#!/bin/sh
+# The bundled visit, from raw reports to the garment: what comes out, and that the journal which the
+# station would have written makes the very same state. KITSUKE is the program.
+kitsuke=${KITSUKE:-build/release/kitsuke}
+tape=$(ls tests/tapes/*.hid | head -n 1)
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+failures=0
+
+fail() {
+  echo "$*" >&2
+  failures=$((failures + 1))
+}
+
+hash_of() {
+  sed -n 's/^hash \([0-9a-f]*\).*/\1/p'
+}
+
+# report_says KEY VALUE
+report_says() {
+  grep -q "\"$1\": $2,\{0,1\}$" "$folder/out/report.json" ||
+    fail "the report says $(grep "\"$1\"" "$folder/out/report.json"), not $2"
+}
+
+test_replay() {
+  hash=$("$kitsuke" replay "$tape" --out "$folder/out" --pictures-every 800 | hash_of)
+  [ -n "$hash" ] || fail "the tape can't be played"
+  for file in journal.kitsuke report.json garment.obj garment.glb contact.png frame-000800.png; do
+    [ -s "$folder/out/$file" ] || fail "$file is not written"
+  done
+  report_says hash "\"$hash\""
+}
+
+test_document_is_its_journal() {
+  again=$("$kitsuke" dress "$folder/out/journal.kitsuke" --obj "$folder/again.obj" | hash_of)
+  [ "$again" = "$hash" ] || fail "the journal makes $again, the tape $hash"
+  cmp "$folder/out/garment.obj" "$folder/again.obj" || fail "and another garment"
+}
+
+test_samples() {
+  "$kitsuke" replay "$tape" --samples >"$folder/samples"
+  [ "$(grep -c '"state": "touch"' "$folder/samples")" -gt 500 ] || fail "hardly a sample touches"
+  "$kitsuke" replay "$tape" --samples --jitter-mm 2 --seed 7 >"$folder/trembling"
+  [ "$(wc -l <"$folder/samples")" = "$(wc -l <"$folder/trembling")" ] ||
+    fail "a trembling hand makes more or fewer samples"
+  ! cmp -s "$folder/samples" "$folder/trembling" || fail "the hand does not tremble"
+}
+
+test_replay
+test_document_is_its_journal
+test_samples
+[ $failures = 0 ]
