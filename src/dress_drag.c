@@ -140,15 +140,16 @@ static struct heap_item heap_pop(struct drag_scratch *s)
 	return top;
 }
 
-/* The way along the body between what lies under two particles; loose cloth counts by half its own
- * length at least, so that a fold over one body point is not free. */
+/* The way along the body between what lies under two particles. Half the cloth's own length at
+ * least, so that a fold over one body point is not free; half as much again at most, where cloth
+ * spans a hollow and what lies under it jumps from one side to the other. */
 static float way_m(const struct cloth *cloth, int a, int b)
 {
 	const struct contact *p = &cloth->contact[a], *q = &cloth->contact[b];
 	float cloth_m = v3_distance(cloth->position_m[a], cloth->position_m[b]);
 	if (p->triangle < 0 || q->triangle < 0)
 		return cloth_m;
-	return float_max(v3_distance(p->point_m, q->point_m), 0.5f * cloth_m);
+	return float_clamp(v3_distance(p->point_m, q->point_m), 0.5f * cloth_m, 1.5f * cloth_m);
 }
 
 /* Dijkstra from the queue's sources. `distance_m` holds 0 at sources and -1 elsewhere; the settled
@@ -249,7 +250,8 @@ static void share_motion(struct drag *drag)
 	for (int k = 0; k < drag->order_count; k++) {
 		int a = drag->order[k];
 		float sum = pin_m[a] + drag->distance_m[a];
-		drag->share[a] = pin_m[a] < 0.0f ? 1.0f : sum > 0.0f ? pin_m[a] / sum : 0.0f;
+		float ratio = sum > 0.0f ? pin_m[a] / sum : 0.0f;
+		drag->share[a] = pin_m[a] < 0.0f ? 1.0f : ratio * (2.0f - ratio);
 	}
 }
 
@@ -378,9 +380,15 @@ static struct v3 pull_m(const struct drag *drag, struct v3 target_m)
 {
 	const struct cloth *cloth = drag->cloth;
 	struct v3 pull = v3_sub(target_m, drag_point(drag));
-	int nearest = cloth->triangle[drag->triangle].v[0];
-	float away = (cloth->contact[nearest].distance_m - near_m) / (loose_m - near_m);
-	struct v3 normal = drag->scratch->normal[nearest];
+	struct v3 normal = {0.0f, 0.0f, 0.0f};
+	float distance_m = 0.0f;
+	for (int k = 0; k < 3; k++) {
+		int particle = cloth->triangle[drag->triangle].v[k];
+		normal = v3_mad(normal, drag->scratch->normal[particle], drag->weight[k]);
+		distance_m += drag->weight[k] * cloth->contact[particle].distance_m;
+	}
+	normal = v3_normalize(normal);
+	float away = (distance_m - near_m) / (loose_m - near_m);
 	float flat = 1.0f - float_clamp(away, 0.0f, 1.0f);
 	pull = v3_mad(pull, normal, -flat * v3_dot(pull, normal));
 	float tight = (strain_at_hand(drag) - strain_free) / (strain_most - strain_free);

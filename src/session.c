@@ -45,6 +45,20 @@ void session_release(struct session *session)
 	session_hold_pins(session);
 }
 
+/* The triangle's goals are its own shape with the pinned point back at its place, so that it
+ * doesn't drift from one hold to the next. */
+static void hold_triangle(struct cloth *cloth, int triangle, const float weight[3],
+			  struct v3 held_m)
+{
+	const int *v = cloth->triangle[triangle].v;
+	for (int k = 0; k < 3; k++)
+		held_m = v3_mad(held_m, cloth->position_m[v[k]], -weight[k]);
+	for (int k = 0; k < 3; k++) {
+		cloth->held[v[k]] = 1;
+		cloth->goal_m[v[k]] = v3_add(cloth->position_m[v[k]], held_m);
+	}
+}
+
 void session_hold_pins(struct session *session)
 {
 	struct cloth *cloth = &session->cloth;
@@ -57,11 +71,8 @@ void session_hold_pins(struct session *session)
 		if (!pin->used)
 			continue;
 		int triangle = garment_locate(&session->garment, pin->piece, pin->point_mm, weight);
-		for (int k = 0; triangle >= 0 && k < 3; k++) {
-			int particle = cloth->particle[session->garment.triangle[triangle].v[k]];
-			cloth->held[particle] = 1;
-			cloth->goal_m[particle] = cloth->position_m[particle];
-		}
+		if (triangle >= 0)
+			hold_triangle(cloth, triangle, weight, pin->held_m);
 	}
 }
 
@@ -128,6 +139,15 @@ static bool is_calm(const struct session *session)
 	return moved < calm_m * (float)count;
 }
 
+/* Cloth is pinned to be gathered or rolled up: folds are wanted then. */
+static bool is_pinned(const struct session *session)
+{
+	bool pinned = false;
+	for (int p = 0; p < PINS_MAX; p++)
+		pinned |= session->document.pin[p].used;
+	return pinned;
+}
+
 /* Counts towards sleep. Before it sleeps the cloth turns its last folds back, and moves once more;
  * then it is cleaned, so that it lies still exactly outside the body. */
 static void note_rest(struct session *session)
@@ -140,7 +160,8 @@ static void note_rest(struct session *session)
 		session->rest_frames = REST_FRAMES;
 	if (session->rest_frames < REST_FRAMES || session->untouched_frames == 0)
 		return;
-	if (session->unfolds < UNFOLDS_MAX && cloth_unfold(&session->cloth) > 0) {
+	if (session->unfolds < UNFOLDS_MAX && !is_pinned(session) &&
+	    cloth_unfold(&session->cloth) > 0) {
 		session->unfolds++;
 		session->rest_frames = 0;
 		session->untouched_frames = COOL_FRAMES;
