@@ -28,6 +28,7 @@ void cloth_init(struct cloth *cloth, struct arena *arena)
 	s->ring = ARENA_ARRAY(arena, int, 6 * GARMENT_TRIANGLES_MAX);
 	s->smooth_m = ARENA_ARRAY(arena, struct v3, GARMENT_VERTICES_MAX);
 	s->edge_owner = ARENA_ARRAY(arena, uint8_t, GARMENT_TRIANGLES_MAX);
+	s->stiff = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
 	s->lift_m = ARENA_ARRAY(arena, float, GARMENT_VERTICES_MAX);
 	s->slack_m = ARENA_ARRAY(arena, float, GARMENT_VERTICES_MAX);
 	cloth->scratch = s;
@@ -74,6 +75,7 @@ void cloth_reset(struct cloth *cloth, const struct garment *garment, const struc
 	memset(cloth->placed, 0, GARMENT_VERTICES_MAX);
 	memset(cloth->held, 0, GARMENT_VERTICES_MAX);
 	memset(cloth->piece_parts, 0, sizeof cloth->piece_parts);
+	memset(cloth->scratch->stiff, 0, GARMENT_VERTICES_MAX);
 	memset(cloth->scratch->lift_m, 0, GARMENT_VERTICES_MAX * sizeof(float));
 	memset(cloth->scratch->slack_m, 0, GARMENT_VERTICES_MAX * sizeof(float));
 	if (!garment)

@@ -4,6 +4,7 @@
 enum { SMOOTH_ROUNDS = 20, EDGE_SAMPLES = 8, CLEAN_ROUNDS = 6 };
 
 static const float fold_reach_m = 0.06f; /* a fold matters this near to the body */
+static const float fold_near_m = 0.02f;  /* and so near even when it only leans over */
 static const float behind_m = 0.25f;     /* cloth this far before a body belongs to it */
 
 static struct v3 face_normal(const struct cloth *cloth, int t)
@@ -23,7 +24,8 @@ static bool faces_body(const struct cloth *cloth, int t)
 		centre = v3_mad(centre, cloth->position_m[v[k]], 1.0f / 3.0f);
 	struct body_hit hit;
 	body_walk(cloth->body, centre, cloth->contact[v[0]].triangle, 16, &hit);
-	if (hit.distance_m > fold_reach_m || v3_dot(normal, hit.normal) > -0.5f)
+	float facing = hit.distance_m < fold_near_m ? -0.25f : -0.5f;
+	if (hit.distance_m > fold_reach_m || v3_dot(normal, hit.normal) > facing)
 		return false;
 	return !body_ray(cloth->body, centre, v3_scale(normal, -1.0f), &hit) ||
 	       hit.distance_m > behind_m;
@@ -83,6 +85,8 @@ int cloth_unfold(struct cloth *cloth)
 	if (found == 0)
 		return 0;
 	flag_ring(cloth);
+	for (int v = 0; v < cloth->garment->vertex_count; v++)
+		s->stiff[v] |= s->flipped[v] != 0;
 	for (int round = 0; round < SMOOTH_ROUNDS; round++)
 		smooth(cloth);
 	cloth_finish(cloth);

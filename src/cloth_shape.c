@@ -53,10 +53,15 @@ long cloth_shape(struct cloth *cloth)
 	return (long)count * cloth->settings.shape_passes;
 }
 
+/* Where a fold was turned back the cloth bends less, or the fold would come again. */
+static const float stiff_flatness = 0.3f;
+
 long cloth_flatten(struct cloth *cloth)
 {
+	const uint8_t *stiff = cloth->scratch->stiff;
+	float flatness = cloth->settings.flatness;
 	struct v3 *x = cloth->position_m;
-	if (cloth->settings.flatness <= 0.0f)
+	if (flatness <= 0.0f)
 		return 0;
 	for (int i = 0; i < cloth->flat_count; i++) {
 		const struct flat *flat = &cloth->flat[i];
@@ -67,7 +72,8 @@ long cloth_flatten(struct cloth *cloth)
 		struct v3 bend = v3_scale(x[v[0]], flat->k[0]);
 		for (int k = 1; k < 4; k++)
 			bend = v3_mad(bend, x[v[k]], flat->k[k]);
-		bend = v3_scale(bend, cloth->settings.flatness / flat->k_norm);
+		bool firm = stiff[v[0]] && stiff[v[1]] && flatness < stiff_flatness;
+		bend = v3_scale(bend, (firm ? stiff_flatness : flatness) / flat->k_norm);
 		for (int k = 0; k < 4; k++)
 			x[v[k]] = v3_mad(x[v[k]], bend, -flat->k[k]);
 	}

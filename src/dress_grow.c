@@ -3,8 +3,8 @@
  * it; several predictions are averaged. */
 #include "dress_private.h"
 
-/* The flat pieces' edges, each under its lower vertex. Vertices are not welded while cloth grows.
- */
+/* Edges by the vertices that they will have once sewn, each under its lower one: cloth grows across
+ * seams as it does across any edge. */
 void wrap_grow_init(struct wrap *wrap)
 {
 	struct wrap_scratch *s = wrap->scratch;
@@ -13,8 +13,8 @@ void wrap_grow_init(struct wrap *wrap)
 	for (int pass = 0; pass < 2; pass++) {
 		for (int t = 0; t < garment->triangle_count; t++)
 			for (int k = 0; k < 3; k++) {
-				const int *v = garment->triangle[t].v;
-				int low = int_min(v[k], v[(k + 1) % 3]);
+				const int *v = garment->triangle[t].v, *weld = garment->weld;
+				int low = int_min(weld[v[k]], weld[v[(k + 1) % 3]]);
 				if (pass == 0)
 					s->edge_first[low + 2]++;
 				else
@@ -72,12 +72,13 @@ static void predict_corner(struct wrap *wrap, int t, int k)
 	struct wrap_scratch *s = wrap->scratch;
 	const struct cloth *cloth = wrap->cloth;
 	const struct triangle *triangle = cloth->garment->triangle;
+	const int *weld = cloth->garment->weld;
 	int d = triangle[t].v[k], a = triangle[t].v[(k + 1) % 3], b = triangle[t].v[(k + 2) % 3];
-	int low = int_min(a, b), high = int_max(a, b);
+	int low = int_min(weld[a], weld[b]), high = int_max(weld[a], weld[b]);
 	for (int i = s->edge_first[low]; i < s->edge_first[low + 1]; i++) {
 		int across = s->edge_triangle[i] / 3, j = s->edge_triangle[i] % 3;
 		const int *w = triangle[across].v;
-		if (across == t || int_max(w[j], w[(j + 1) % 3]) != high ||
+		if (across == t || int_max(weld[w[j]], weld[w[(j + 1) % 3]]) != high ||
 		    !triangle_placed(cloth, across))
 			continue;
 		s->sum_m[d] = v3_add(s->sum_m[d], unfolded(cloth, t, k, across));

@@ -5,12 +5,12 @@
 
 enum {
 	RING_SWEEPS = 3,
-	CLOSE_SWEEPS = 140,
-	RELEASE_SWEEPS = 50, /* still closing, but the marks have let go */
-	WELD_SWEEPS = 50,
+	CLOSE_SWEEPS = 80,
+	RELEASE_SWEEPS = 30, /* still closing, but the marks have let go */
+	WELD_SWEEPS = 25,
 	UNFOLD_ROUNDS = 6,
-	UNFOLD_SWEEPS = 24,
-	SETTLE_SWEEPS = 160,
+	UNFOLD_SWEEPS = 16,
+	SETTLE_SWEEPS = 64,
 	PUSH_ROUNDS = 4,
 };
 
@@ -41,6 +41,7 @@ static struct cloth_settings growing(void)
 	set.grip = 0.0f;
 	set.filter_parts = true;
 	set.faces = false;
+	set.attract_m = 0.001f; /* more, and a sleeve is drawn to the front of its arm */
 	return set;
 }
 
@@ -48,8 +49,9 @@ static struct cloth_settings closing(void)
 {
 	struct cloth_settings set = growing();
 	set.flatness = 0.03f;
-	set.momentum = 0.7f;
-	set.seam_step_m = 0.0015f;
+	set.momentum = 0.8f;
+	set.seam_step_m = 0.003f;
+	set.attract_m = 0.0f;
 	return set;
 }
 
