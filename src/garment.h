@@ -3,7 +3,9 @@
  *   pattern --garment_start--> job --garment_advance (quota)--> garment
  *
  * Vertices keep their flat rest position for ever (strain and texture are measured against it);
- * `weld` says which vertices are one once the seams are closed.
+ * `weld` says which vertices are one once the seams are closed. Where two edges of ONE piece are
+ * sewn together and come so close that joining them would fold a triangle to a line (the tip of a
+ * cone, a strip narrower than two triangles), those samples have no pair and the place stays open.
  */
 #ifndef GARMENT_H
 #define GARMENT_H

@@ -126,13 +126,14 @@ static const char *choose_edge(struct plan *plan, const struct pattern *pattern,
 			area += piece_area_mm2(&pattern->piece[p]);
 	for (int e = 0; e < plan->edge_count; e++)
 		length += plan->edge[e].length_mm;
-	float v = (float)int_clamp(vertices, 3, GARMENT_VERTICES_MAX);
+	float most = FULL_SHARE * (float)GARMENT_VERTICES_MAX;
+	float v = float_clamp((float)vertices, 3.0f, 0.99f * most);
 	float root = sqrtf(0.25f * length * length + 4.0f * v * area / 0.8660254f);
 	float h = float_clamp((0.5f * length + root) / (2.0f * v), (float)PLAN_EDGE_MM_MIN,
 			      (float)PLAN_EDGE_MM_MAX);
 	plan->edge_mm = h;
 	float expected = area / (0.8660254f * h * h) + 0.5f * length / h;
-	return expected <= FULL_SHARE * (float)GARMENT_VERTICES_MAX ? NULL : too_large;
+	return expected <= most ? NULL : too_large;
 }
 
 static const char *divide_evenly(struct plan *plan)

@@ -158,8 +158,8 @@ static void begin_at(struct piece *piece, struct v2 first)
 	*piece = turned;
 }
 
-/* A pen that rests where it starts or stops leaves a hook there; what lies within a corner's reach of
- * the ends is taken for the end itself. */
+/* A pen that rests where it starts or stops leaves a hook there; what lies within a corner's reach
+ * of the ends is taken for the end itself. */
 static void drop_hooks(struct piece *made, struct v2 a, struct v2 b)
 {
 	int kept = 0;

@@ -83,6 +83,8 @@ static void test_tube(void)
 	figures_measure(&figures, &garment);
 	CHECK(figures.angle_min_deg >= 25.0f);
 	CHECK(figures.angle_mean_deg >= 50.0f);
+	CHECK(garment_start(job, &garment, &pattern, 1 << 30) == NULL); /* as many as fit */
+	CHECK(mesh_with(2400, 5000));
 	/* A tube has Euler number 0 once welded. */
 	CHECK(figures.euler == 0);
 	/* Sides meet bottom to bottom. */
