@@ -3,7 +3,7 @@
 
 #include "body_private.h"
 
-enum { NODES_MAX = BODY_TRIANGLES_MAX, LEAF_TRIANGLES = 4 };
+enum { NODES_MAX = 2 * BODY_TRIANGLES_MAX, LEAF_TRIANGLES = 2 };
 
 void body_init(struct body *body, struct arena *arena)
 {

@@ -1,7 +1,5 @@
-/* Nearest points, exact by the tree and warm by walking; rays. */
-#include "body.h"
-
-enum { STACK_MAX = 64 };
+/* Nearest points: exact by the tree, warm by walking. */
+#include "body_private.h"
 
 /* Which feature of a triangle a nearest point lies on. */
 enum feature {
@@ -77,7 +75,7 @@ static struct v3 side_normal(const struct body *body, const struct nearest *n)
 	return normal;
 }
 
-static struct v3 smooth_normal(const struct body *body, int t, struct v3 q)
+struct v3 body_smooth_normal(const struct body *body, int t, struct v3 q)
 {
 	const int *v = body->triangle[t].v;
 	struct v3 a = body->position_m[v[0]], b = body->position_m[v[1]],
@@ -99,7 +97,7 @@ static void finish(const struct body *body, struct v3 p, const struct nearest *n
 	float distance = sqrtf(n->d2);
 	hit->triangle = n->triangle;
 	hit->point_m = n->point;
-	hit->normal = smooth_normal(body, n->triangle, n->point);
+	hit->normal = body_smooth_normal(body, n->triangle, n->point);
 	bool inside = v3_dot(v3_sub(p, n->point), side_normal(body, n)) < 0.0f;
 	hit->distance_m = inside ? -distance : distance;
 }
@@ -128,15 +126,24 @@ static bool on_rim(const struct body *body, const struct nearest *n, unsigned pa
 	return false;
 }
 
+/* A node that waits, with its box's distance. */
+struct waiting {
+	int node;
+	float d2;
+};
+
+/* Nearer children first; what has become too far meanwhile is dropped when its turn comes. */
 static void search(const struct body *body, struct v3 point_m, unsigned parts, struct nearest *best)
 {
-	int stack[STACK_MAX], depth = 0;
+	struct waiting stack[TREE_STACK_MAX];
+	int depth = 0;
 	MUST(body->triangle_count > 0);
-	stack[depth++] = 0;
+	stack[depth++] = (struct waiting){0, box_d2(&body->node[0], point_m)};
 	while (depth > 0) {
-		const struct bvh_node *node = &body->node[stack[--depth]];
-		if (box_d2(node, point_m) >= best->d2)
+		struct waiting top = stack[--depth];
+		if (top.d2 >= best->d2)
 			continue;
+		const struct bvh_node *node = &body->node[top.node];
 		for (int i = 0; i < node->count; i++) {
 			int t = body->node_triangle[node->first + i];
 			if (!parts || (parts >> body->part[t] & 1))
@@ -144,11 +151,17 @@ static void search(const struct body *body, struct v3 point_m, unsigned parts, s
 		}
 		if (node->count > 0)
 			continue;
-		float left = box_d2(&body->node[node->first], point_m);
-		float right = box_d2(&body->node[node->first + 1], point_m);
-		MUST(depth + 2 <= STACK_MAX);
-		stack[depth++] = node->first + (left <= right);
-		stack[depth++] = node->first + (left > right);
+		int near = node->first, far = node->first + 1;
+		float near_d2 = box_d2(&body->node[near], point_m);
+		float far_d2 = box_d2(&body->node[far], point_m);
+		MUST(depth + 2 <= TREE_STACK_MAX);
+		if (far_d2 < near_d2) {
+			stack[depth++] = (struct waiting){near, near_d2};
+			stack[depth++] = (struct waiting){far, far_d2};
+		} else {
+			stack[depth++] = (struct waiting){far, far_d2};
+			stack[depth++] = (struct waiting){near, near_d2};
+		}
 	}
 }
 
@@ -194,111 +207,4 @@ int body_walk(const struct body *body, struct v3 point_m, int from, int steps_ma
 	}
 	finish(body, point_m, &best, hit);
 	return looked;
-}
-
-/* ---- rays ---- */
-
-static bool ray_box(const struct bvh_node *node, struct v3 o, struct v3 inverse, float t_max)
-{
-	float ax = (node->low_m.x - o.x) * inverse.x, bx = (node->high_m.x - o.x) * inverse.x;
-	float ay = (node->low_m.y - o.y) * inverse.y, by = (node->high_m.y - o.y) * inverse.y;
-	float az = (node->low_m.z - o.z) * inverse.z, bz = (node->high_m.z - o.z) * inverse.z;
-	float near = float_max(float_max(float_min(ax, bx), float_min(ay, by)),
-			       float_max(float_min(az, bz), 0.0f));
-	float far = float_min(float_min(float_max(ax, bx), float_max(ay, by)),
-			      float_min(float_max(az, bz), t_max));
-	return near <= far * 1.00001f;
-}
-
-/* Moeller and Trumbore; *front says which side was hit. False: missed. */
-static bool ray_triangle(const struct body *body, int t, struct v3 o, struct v3 d, float *distance,
-			 bool *front)
-{
-	const int *v = body->triangle[t].v;
-	struct v3 a = body->position_m[v[0]];
-	struct v3 e1 = v3_sub(body->position_m[v[1]], a), e2 = v3_sub(body->position_m[v[2]], a);
-	struct v3 p = v3_cross(d, e2);
-	float det = v3_dot(e1, p);
-	if (det == 0.0f)
-		return false;
-	float inverse = 1.0f / det;
-	struct v3 s = v3_sub(o, a);
-	float u = v3_dot(s, p) * inverse;
-	if (!(u >= 0.0f && u <= 1.0f))
-		return false;
-	struct v3 q = v3_cross(s, e1);
-	float w = v3_dot(d, q) * inverse;
-	*distance = v3_dot(e2, q) * inverse;
-	*front = det > 0.0f;
-	return w >= 0.0f && u + w <= 1.0f && *distance >= 0.0f;
-}
-
-static float inverse_of(float x)
-{
-	return float_abs(x) > 1e-12f ? 1.0f / x : x < 0.0f ? -1e12f : 1e12f;
-}
-
-enum ray_wanted {
-	RAY_FIRST_FRONT,
-	RAY_LAST_BACK,
-	RAY_FIRST_ANY,
-};
-
-static bool cast(const struct body *body, struct v3 o, struct v3 d, float t_max,
-		 enum ray_wanted wanted, struct body_hit *hit)
-{
-	struct v3 inverse = {inverse_of(d.x), inverse_of(d.y), inverse_of(d.z)};
-	int stack[STACK_MAX], depth = 0, found = -1;
-	float best = wanted == RAY_LAST_BACK ? -1.0f : t_max;
-	MUST(body->triangle_count > 0);
-	stack[depth++] = 0;
-	while (depth > 0) {
-		const struct bvh_node *node = &body->node[stack[--depth]];
-		if (!ray_box(node, o, inverse, wanted == RAY_LAST_BACK ? t_max : best))
-			continue;
-		for (int i = 0; i < node->count; i++) {
-			int t = body->node_triangle[node->first + i];
-			float distance;
-			bool front;
-			if (!ray_triangle(body, t, o, d, &distance, &front))
-				continue;
-			bool nearer = distance < best || (distance == best && t < found);
-			bool farther = distance > best && distance <= t_max;
-			if ((wanted == RAY_FIRST_FRONT && front && nearer) ||
-			    (wanted == RAY_FIRST_ANY && nearer) ||
-			    (wanted == RAY_LAST_BACK && !front && farther)) {
-				best = distance;
-				found = t;
-			}
-		}
-		if (node->count > 0)
-			continue;
-		MUST(depth + 2 <= STACK_MAX);
-		stack[depth++] = node->first + 1;
-		stack[depth++] = node->first;
-	}
-	if (found < 0)
-		return false;
-	hit->triangle = found;
-	hit->point_m = v3_mad(o, d, best);
-	hit->normal = smooth_normal(body, found, hit->point_m);
-	hit->distance_m = best;
-	return true;
-}
-
-bool body_ray(const struct body *body, struct v3 origin_m, struct v3 direction,
-	      struct body_hit *hit)
-{
-	return cast(body, origin_m, direction, 1e9f, RAY_FIRST_FRONT, hit);
-}
-
-bool body_ray_back(const struct body *body, struct v3 origin_m, struct v3 direction,
-		   struct body_hit *hit)
-{
-	return cast(body, origin_m, direction, 1e9f, RAY_LAST_BACK, hit);
-}
-
-bool body_segment_hits(const struct body *body, struct v3 a_m, struct v3 b_m, struct body_hit *hit)
-{
-	return cast(body, a_m, v3_sub(b_m, a_m), 1.0f, RAY_FIRST_ANY, hit);
 }
