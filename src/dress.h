@@ -74,8 +74,8 @@ struct drag {
 			      ..] */
 	int *from;
 	float *from_share;            /* sums to 1 over a particle's hands */
-	struct v3 *motion_m;          /* per particle, of the last move */
-	struct drag_scratch *scratch; /* adjacency and queue while the graph is built */
+	int moves;                    /* since the hand took hold */
+	struct drag_scratch *scratch; /* the graph while it is built; what each particle hands on */
 };
 
 void drag_init(struct drag *drag, struct arena *arena);
@@ -87,7 +87,7 @@ void drag_begin(struct drag *drag, struct cloth *cloth, const struct pin *pins, 
 
 /* Moves the grabbed point towards target_m (in space; the way is laid along the body's surface), at
  * most DRAG_STEP_MAX_MM in one call, and everything that depends on it. Returns units spent. */
-enum { DRAG_STEP_MAX_MM = 8 };
+enum { DRAG_STEP_MAX_MM = 10 };
 long drag_move(struct drag *drag, struct v3 target_m);
 void drag_end(struct drag *drag);
 
