@@ -3,6 +3,7 @@
 
 enum {
 	SWEEPS_A_FRAME_MAX = 10,
+	WRAP_SHARE = 3,
 	SWEEPS_BETWEEN_UNFOLDS = 200, /* while RELAX is held */
 	VERTICES_WANTED = 2400,
 	BUDGET_UNITS = 600000,
@@ -119,7 +120,8 @@ static long advance_mesh(struct session *session)
 
 static long advance_wrap(struct session *session)
 {
-	long units = wrap_advance(&session->wrap, session->budget_units);
+	/* a share of the budget: the visitor is to see the garment grow */
+	long units = wrap_advance(&session->wrap, session->budget_units / WRAP_SHARE);
 	if (session->wrap.stage == WRAP_DONE) {
 		session_wake(session);
 		session->job = JOB_NONE;

@@ -11,14 +11,16 @@
 
 enum { WIDTH_PX = 1280, HEIGHT_PX = 720, PATH_MAX_POINTS = 1024, FRONT = 0, BACK = 1 };
 
+static const float DRAWING_SPEED = 220.0f; /* pixels a second: with care, as outlines are drawn */
+
 /* The shirt's right half seen from outside, in mm from the pit of the neck, y up; mirrored in x for
  * the other half. Straight runs, but for the neckline. */
 static const struct v2 half_shirt_mm[] = {
-	{78.0f, 0.0f},     /* neck side */
-	{372.0f, -151.0f}, /* sleeve end, above */
-	{296.0f, -293.0f}, /* sleeve end, below */
-	{240.0f, -258.0f}, /* underarm */
-	{248.0f, -670.0f}, /* hem */
+	{82.0f, 0.0f},     /* neck side */
+	{440.0f, -186.0f}, /* sleeve end, above */
+	{362.0f, -330.0f}, /* sleeve end, below */
+	{242.0f, -266.0f}, /* underarm */
+	{250.0f, -670.0f}, /* hem */
 };
 
 struct path {
@@ -67,7 +69,7 @@ static void draw_shirt(struct hand *hand, struct v2 centre_mm, float neck_depth)
 		struct v2 left = {-half_shirt_mm[i].x, half_shirt_mm[i].y};
 		path_line(&path, sheet_px(hand, centre_mm, left), 12);
 	}
-	hand_stroke(hand, path.point, path.count, 450.0f);
+	hand_stroke(hand, path.point, path.count, DRAWING_SPEED);
 	hand_wait(hand, 0.2f);
 }
 
@@ -78,7 +80,7 @@ static void redraw_neck(struct hand *hand, struct v2 centre_mm, float neck_depth
 	path.count = 0;
 	path_add(&path, sheet_px(hand, centre_mm, (struct v2){-half_shirt_mm[0].x, 0.0f}));
 	path_neck(&path, hand, centre_mm, neck_depth);
-	hand_stroke(hand, path.point, path.count, 250.0f);
+	hand_stroke(hand, path.point, path.count, 0.7f * DRAWING_SPEED);
 	hand_wait(hand, 0.2f);
 }
 
@@ -113,8 +115,11 @@ static void sew_run(struct hand *hand, int from, float side)
 	struct v2 middle = v2_lerp(half_shirt_mm[from], half_shirt_mm[from + 1], 0.5f);
 	middle.x *= side;
 	struct v2 path[2] = {edge_px(hand, FRONT, middle), edge_px(hand, BACK, middle)};
-	hand_stroke(hand, path, 2, 900.0f);
+	hand_touch(hand, path[0]);
 	hand_wait(hand, 0.1f);
+	hand_follow(hand, path, 2, 900.0f);
+	hand_wait(hand, 0.15f);
+	hand_lift(hand);
 }
 
 static void sew_shirt(struct hand *hand)
@@ -237,7 +242,7 @@ static void say(const struct hand *hand, const char *what)
 static void visit(struct hand *hand)
 {
 	hand_wait(hand, 0.3f);
-	struct v2 front_mm = {-470.0f, 330.0f};
+	struct v2 front_mm = {-110.0f, 600.0f};
 	draw_shirt(hand, front_mm, 92.0f);
 	say(hand, "front");
 	hand_tap_target(hand, TARGET_COPY);
@@ -271,9 +276,9 @@ static void visit(struct hand *hand)
 	hand_wait(hand, 0.5f);
 	say(hand, "hem pulled");
 
-	pin_at(hand, (struct v2){210.0f, -120.0f});
-	pin_at(hand, (struct v2){250.0f, -190.0f});
-	pull(hand, (struct v2){330.0f, -215.0f}, (struct v2){-22.0f, -30.0f});
+	pin_at(hand, (struct v2){200.0f, -105.0f});
+	pin_at(hand, (struct v2){215.0f, -205.0f});
+	pull(hand, (struct v2){396.0f, -250.0f}, (struct v2){-24.0f, -36.0f});
 	hand_wait(hand, 0.5f);
 	say(hand, "sleeve rolled");
 
