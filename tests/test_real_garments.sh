@@ -1,0 +1,48 @@
+#!/bin/sh
+# Garments and bodies that nobody here made: a real pattern, imported, marked by hand, wrapped on a
+# real body, and judged by the report.
+kitsuke=${KITSUKE:-build/release/kitsuke}
+data=../shared/data
+[ -d "$data/patterns/seams" ] || {
+  echo "skip: ../shared/data is not there"
+  exit 77
+}
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+failures=0
+
+fail() {
+  echo "$*" >&2
+  failures=$((failures + 1))
+}
+
+# value KEY: the number behind a key of the report
+value() {
+  sed -n "s/^ *\"$1\": \([^,]*\),*$/\1/p" "$folder/report.json" | head -n 1
+}
+
+below() {
+  awk -v a="$(value "$1")" -v b="$2" 'BEGIN { exit !(a != "" && a < b) }' || fail "$3: $1 is $(value "$1"), wanted below $2"
+}
+
+equal() {
+  [ "$(value "$1")" = "$2" ] || fail "$3: $1 is $(value "$1"), wanted $2"
+}
+
+# dress PATTERN MARKS BODY
+dress() {
+  "$kitsuke" import "$data/patterns/seams/$1.garment.json" --journal "$folder/$1.kitsuke" || fail "$1: not imported"
+  cat "tests/marks/$2" >>"$folder/$1.kitsuke"
+  "$kitsuke" dress "$folder/$1.kitsuke" --body "$data/bodies/$3.obj" --report "$folder/report.json" --obj "$folder/$1.obj" ||
+    fail "$1: not dressed"
+}
+
+dress teagan_cisFemaleAdult34 teagan.marks mh_female_young_average
+for key in vertices_inside midpoints_inside centres_inside edge_crossings_body inverted_triangles; do
+  equal "$key" 0 teagan
+done
+below strain_p95 0.10 teagan
+equal head_through_collar true teagan
+equal arms_in_sleeves 2 teagan
+below seam_gap_mm_max 0.001 teagan
+[ "$failures" = 0 ]
