@@ -189,7 +189,7 @@ static void pull_held(struct cloth *cloth)
 	for (int v = 0; v < cloth->garment->vertex_count; v++)
 		if (cloth->held[v] && is_particle(cloth, v))
 			cloth->position_m[v] = v3_lerp(cloth->position_m[v], cloth->goal_m[v],
-						       0.5f);
+						       cloth->held[v] > 1 ? 0.9f : 0.5f);
 }
 
 /* No particle goes farther than step_max_m in a sweep, so that none can pass through a limb. */

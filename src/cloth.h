@@ -53,7 +53,7 @@ struct cloth {
 	struct v3 *previous_m;
 	struct contact *contact;
 	uint8_t *placed; /* the wrap has laid this vertex */
-	uint8_t *held;   /* 1: goal_m pulls (marks, pins, the grabbed point) */
+	uint8_t *held;   /* goal_m pulls: 1 softly (marks, the grabbed point), 2 firmly (pins) */
 	struct v3 *goal_m;
 	bool welded;
 	bool worn;                        /* a wrap has finished: there is a garment to drag */

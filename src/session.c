@@ -55,7 +55,7 @@ static void hold_triangle(struct cloth *cloth, int triangle, const float weight[
 	for (int k = 0; k < 3; k++)
 		held_m = v3_mad(held_m, cloth->position_m[v[k]], -weight[k]);
 	for (int k = 0; k < 3; k++) {
-		cloth->held[v[k]] = 1;
+		cloth->held[v[k]] = 2;
 		cloth->goal_m[v[k]] = v3_add(cloth->position_m[v[k]], held_m);
 	}
 }
