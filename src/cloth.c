@@ -48,6 +48,7 @@ struct cloth_settings cloth_settings_worn(void)
 		.grip = 0.5f,
 		.offset_m = 0.004f,
 		.step_max_m = 0.006f,
+		.seam_step_m = 0.0005f,
 		.faces = true,
 	};
 }
@@ -75,6 +76,7 @@ void cloth_reset(struct cloth *cloth, const struct garment *garment, const struc
 	memset(cloth->placed, 0, GARMENT_VERTICES_MAX);
 	memset(cloth->held, 0, GARMENT_VERTICES_MAX);
 	memset(cloth->piece_parts, 0, sizeof cloth->piece_parts);
+	memset(cloth->piece_drawn, 0, sizeof cloth->piece_drawn);
 	memset(cloth->scratch->stiff, 0, GARMENT_VERTICES_MAX);
 	memset(cloth->scratch->lift_m, 0, GARMENT_VERTICES_MAX * sizeof(float));
 	memset(cloth->scratch->slack_m, 0, GARMENT_VERTICES_MAX * sizeof(float));
@@ -159,7 +161,8 @@ static void predict(struct cloth *cloth)
 		*p = v3_add(*p, step);
 		p->y -= set->gravity_m;
 		const struct contact *contact = &cloth->contact[v];
-		if (set->attract_m > 0.0f && contact->triangle >= 0 && contact->distance_m > 0.035f)
+		if (set->attract_m > 0.0f && cloth->piece_drawn[cloth->garment->piece[v]] &&
+		    contact->triangle >= 0 && contact->distance_m > 0.035f)
 			*p = v3_mad(*p, contact->normal, -set->attract_m);
 	}
 }

@@ -67,6 +67,15 @@ static struct v3 unfolded(const struct cloth *cloth, int t, int k, int across)
 	return v3_mad(v3_mad(middle, edge, v2_dot(to, u) - 0.5f * length), left, v2_cross(u, to));
 }
 
+/* Does cloth grow from triangle `across` into t? Over a seam only into a piece that no mark laid:
+ * the sides of other seams still lie apart. */
+static bool continues(const struct wrap *wrap, int t, int across)
+{
+	const int *piece = wrap->cloth->garment->triangle_piece;
+	return across != t && triangle_placed(wrap->cloth, across) &&
+	       (piece[across] == piece[t] || !wrap->scratch->seeded[piece[t]]);
+}
+
 static void predict_corner(struct wrap *wrap, int t, int k)
 {
 	struct wrap_scratch *s = wrap->scratch;
@@ -78,8 +87,8 @@ static void predict_corner(struct wrap *wrap, int t, int k)
 	for (int i = s->edge_first[low]; i < s->edge_first[low + 1]; i++) {
 		int across = s->edge_triangle[i] / 3, j = s->edge_triangle[i] % 3;
 		const int *w = triangle[across].v;
-		if (across == t || int_max(weld[w[j]], weld[w[(j + 1) % 3]]) != high ||
-		    !triangle_placed(cloth, across))
+		if (int_max(weld[w[j]], weld[w[(j + 1) % 3]]) != high ||
+		    !continues(wrap, t, across))
 			continue;
 		s->sum_m[d] = v3_add(s->sum_m[d], unfolded(cloth, t, k, across));
 		s->count[d]++;

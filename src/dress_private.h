@@ -12,13 +12,15 @@ struct wrap_scratch {
 	int *edge_first;    /* per vertex + 1: triangles on edges whose lower vertex it is */
 	int *edge_triangle; /* triangle * 3 + corner */
 	float along_m[MARK_POINTS_MAX];
-	int ring_sweeps; /* sweeps left before the next ring */
-	int rounds;      /* folds turned back so far */
+	int rounds; /* folds turned back so far */
 	struct v3 mark_point_m[MARK_POINTS_MAX], mark_normal[MARK_POINTS_MAX];
 };
 
 /* Puts the triangles under the marks on the body (dress_seed.c). Returns the vertices seeded. */
 int wrap_seed(struct wrap *wrap);
+
+/* The number of a mark that laid this piece; 0: none did. */
+int wrap_piece_mark(const struct wrap *wrap, int piece);
 
 /* Distances of the marks' cloth from their places on the body, now. */
 void wrap_mark_error(struct wrap *wrap);

@@ -155,6 +155,93 @@ static int seed_mark(struct wrap *wrap, const struct cloth_mark *mark, const str
 	return seeds;
 }
 
+static const struct cloth_mark *on_cloth(const struct marks *marks, int number)
+{
+	for (int m = 0; m < MARKS_MAX; m++)
+		if (marks->cloth[m].used && marks->cloth[m].number == number)
+			return &marks->cloth[m];
+	return NULL;
+}
+
+static void diagnose_lonely(struct wrap *wrap)
+{
+	const struct marks *marks = wrap->marks;
+	for (int m = 0; m < MARKS_MAX; m++) {
+		int cloth = marks->cloth[m].number, body = marks->body[m].number;
+		if (marks->cloth[m].used && !partner(marks, cloth))
+			wrap_diagnose(wrap, "no-partner", cloth, 0,
+				      "Mark %1 on the cloth has no partner on the body.");
+		if (marks->body[m].used && !on_cloth(marks, body))
+			wrap_diagnose(wrap, "no-partner", body, 0,
+				      "Mark %1 on the body has no partner on the cloth.");
+	}
+}
+
+/* From the first point of a line to its last, as a unit vector. */
+static struct v2 cloth_chord(const struct cloth_mark *mark)
+{
+	return v2_normalize(v2_sub(mark->point_mm[mark->point_count - 1], mark->point_mm[0]));
+}
+
+static struct v3 body_chord(const struct body_mark *mark)
+{
+	return v3_normalize(v3_sub(mark->point_m[mark->point_count - 1], mark->point_m[0]));
+}
+
+/* Two marks of one piece that run the same way on the cloth, but opposite ways on the body (or the
+ * reverse): one of the four lines was drawn from its wrong end. */
+static void diagnose_directions(struct wrap *wrap)
+{
+	const struct marks *marks = wrap->marks;
+	for (int i = 0; i < MARKS_MAX; i++)
+		for (int j = i + 1; j < MARKS_MAX; j++) {
+			const struct cloth_mark *a = &marks->cloth[i], *b = &marks->cloth[j];
+			if (!a->used || !b->used || a->piece != b->piece)
+				continue;
+			const struct body_mark *on_a = partner(marks, a->number);
+			const struct body_mark *on_b = partner(marks, b->number);
+			if (!on_a || !on_b)
+				continue;
+			float cloth = v2_dot(cloth_chord(a), cloth_chord(b));
+			float body = v3_dot(body_chord(on_a), body_chord(on_b));
+			if (cloth * body < -0.25f)
+				wrap_diagnose(
+					wrap, "directions-differ", a->number, b->number,
+					"Marks %1 and %2 run alike on one side and opposite "
+					"ways on the other; draw one line from its other end.");
+		}
+}
+
+/* Which part of the body most points of a mark lie on. */
+static int mark_part(const struct body *body, const struct body_mark *mark)
+{
+	int votes[PART_COUNT] = {0}, most = 0;
+	for (int i = 0; i < mark->point_count; i++) {
+		struct body_hit hit;
+		body_nearest(body, mark->point_m[i], 0, &hit);
+		votes[body->part[hit.triangle]]++;
+	}
+	for (int part = 1; part < PART_COUNT; part++)
+		most = votes[part] > votes[most] ? part : most;
+	return most;
+}
+
+/* Pieces that no mark lays on the trunk are drawn to the body while they grow: flat cloth beside a
+ * thin limb would tip over to one side of it. Over the hollow of a back the same pull would crumple
+ * cloth that lies well. */
+static void choose_drawn(struct wrap *wrap)
+{
+	struct cloth *cloth = wrap->cloth;
+	for (int p = 0; p < PIECES_MAX; p++)
+		cloth->piece_drawn[p] = true;
+	for (int m = 0; m < MARKS_MAX; m++) {
+		const struct cloth_mark *mark = &wrap->marks->cloth[m];
+		const struct body_mark *on = mark->used ? partner(wrap->marks, mark->number) : NULL;
+		if (on && mark_part(cloth->body, on) == PART_TRUNK)
+			cloth->piece_drawn[mark->piece] = false;
+	}
+}
+
 int wrap_seed(struct wrap *wrap)
 {
 	const struct marks *marks = wrap->marks;
@@ -165,11 +252,21 @@ int wrap_seed(struct wrap *wrap)
 		const struct body_mark *on = mark->used ? partner(marks, mark->number) : NULL;
 		if (on && mark->point_count >= 2 && on->point_count >= 2)
 			seeds += seed_mark(wrap, mark, on);
-		else if (mark->used)
-			wrap_diagnose(wrap, "no-partner", mark->number, 0,
-				      "Mark %1 on the cloth has no partner on the body.");
 	}
+	choose_drawn(wrap);
+	diagnose_lonely(wrap);
+	diagnose_directions(wrap);
 	return seeds;
+}
+
+int wrap_piece_mark(const struct wrap *wrap, int piece)
+{
+	const struct marks *marks = wrap->marks;
+	for (int m = 0; m < MARKS_MAX; m++)
+		if (marks->cloth[m].used && marks->cloth[m].piece == piece &&
+		    partner(marks, marks->cloth[m].number))
+			return marks->cloth[m].number;
+	return 0;
 }
 
 void wrap_mark_error(struct wrap *wrap)

@@ -7,6 +7,7 @@ enum {
 	RING_SWEEPS = 3,
 	CLOSE_SWEEPS = 80,
 	RELEASE_SWEEPS = 30, /* still closing, but the marks have let go */
+	LATE_SWEEPS = 110,   /* the same when seams are late */
 	WELD_SWEEPS = 25,
 	UNFOLD_ROUNDS = 6,
 	UNFOLD_SWEEPS = 16,
@@ -14,6 +15,7 @@ enum {
 	PUSH_ROUNDS = 4,
 };
 
+static const float gap_late_m = 0.02f;   /* seams wider than this need more closing */
 static const float gap_agrees_m = 0.06f; /* seams wider than this before the weld: marks disagree */
 
 void wrap_init(struct wrap *wrap, struct arena *arena)
@@ -41,7 +43,8 @@ static struct cloth_settings growing(void)
 	set.grip = 0.0f;
 	set.filter_parts = true;
 	set.faces = false;
-	set.attract_m = 0.001f; /* more, and a sleeve is drawn to the front of its arm */
+	set.seam_step_m = 0.0f;
+	set.attract_m = 0.001f;
 	return set;
 }
 
@@ -137,40 +140,73 @@ static void release_marks(struct wrap *wrap)
 	memset(wrap->cloth->held, 0, (size_t)wrap->cloth->garment->vertex_count);
 }
 
-/* The share of seam pairs that are farther apart than agreeing marks would leave them. */
-static bool seams_agree(const struct cloth *cloth)
+/* Pairs of a seam, and how many of them are farther apart than `wide_m`; seam -1: of all seams. */
+static int count_pairs(const struct cloth *cloth, int seam, float wide_m, int *wide)
 {
-	int wide = 0, count = 0;
+	int count = 0;
+	*wide = 0;
 	for (int i = 0; i < cloth->garment->pair_count; i++) {
-		int a = cloth->garment->pair[i].a, b = cloth->garment->pair[i].b;
-		if (!cloth->placed[a] || !cloth->placed[b])
+		const struct seam_pair *pair = &cloth->garment->pair[i];
+		if ((seam >= 0 && pair->seam != seam) || !cloth->placed[pair->a] ||
+		    !cloth->placed[pair->b])
 			continue;
 		count++;
-		wide += v3_distance(cloth->position_m[a], cloth->position_m[b]) > gap_agrees_m;
+		*wide += v3_distance(cloth->position_m[pair->a], cloth->position_m[pair->b]) >
+			 wide_m;
 	}
-	return 2 * wide <= count;
+	return count;
 }
 
+/* Names the marks on both sides of every seam whose median gap is too wide. */
+static void diagnose_gaps(struct wrap *wrap)
+{
+	const struct garment *garment = wrap->cloth->garment;
+	for (int seam = 0; seam < SEAMS_MAX; seam++) {
+		int wide, i = 0, count = count_pairs(wrap->cloth, seam, gap_agrees_m, &wide);
+		if (2 * wide <= count)
+			continue;
+		while (garment->pair[i].seam != seam)
+			i++;
+		int a = wrap_piece_mark(wrap, garment->piece[garment->pair[i].a]);
+		int b = wrap_piece_mark(wrap, garment->piece[garment->pair[i].b]);
+		wrap_diagnose(wrap, "marks-disagree", a, b == a ? 0 : b,
+			      a && b && a != b ? "Marks %1 and %2 pull apart what a seam joins."
+					       : "A seam can't close; see the marks beside it.");
+	}
+}
+
+/* Sews when most seams have nearly met. Else the marks contradict the seams: everything stays as
+ * open pieces that pull lightly at each other (S10). */
 static void end_close(struct wrap *wrap)
 {
 	struct cloth *cloth = wrap->cloth;
-	if (seams_agree(cloth)) {
+	int wide, count = count_pairs(cloth, -1, gap_agrees_m, &wide);
+	diagnose_gaps(wrap);
+	if (3 * wide <= count) {
 		cloth_weld(cloth);
 		enter(wrap, WRAP_WELD, closing());
 		return;
 	}
-	wrap_diagnose(wrap, "marks-disagree", 0, 0,
-		      "The marks pull sewn edges apart; the seams stay open. Redraw the marks so "
-		      "that they fit the seams.");
+	wrap_diagnose(wrap, "not-sewn", 0, 0,
+		      "The marks hold sewn edges too far apart; the seams stay open. Redraw the "
+		      "marks so that they fit the seams.");
 	enter(wrap, WRAP_SETTLE, settling());
-	cloth->settings.seam_step_m = 0.001f;
 }
 
+/* Some seams have not met yet. */
+static bool seams_late(const struct cloth *cloth)
+{
+	int wide, count = count_pairs(cloth, -1, gap_late_m, &wide);
+	return 20 * wide > count;
+}
+
+/* The marks let go after a while; seams that they held apart get more time to meet then. */
 static long close_up(struct wrap *wrap)
 {
-	if (wrap->progress == CLOSE_SWEEPS)
+	int after = wrap->progress - CLOSE_SWEEPS;
+	if (after == 0)
 		release_marks(wrap);
-	if (wrap->progress == CLOSE_SWEEPS + RELEASE_SWEEPS) {
+	if (after == LATE_SWEEPS || (after >= RELEASE_SWEEPS && !seams_late(wrap->cloth))) {
 		end_close(wrap);
 		return 1;
 	}
