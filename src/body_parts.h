@@ -107,7 +107,6 @@ void parts_trunk(const struct body *body, struct parts_scratch *scratch, struct 
 /* ---- body_parts_bone.c ---- */
 
 /* The bones of trunk, head and limbs along their paths. limb[part]: scratch->limb. */
-void parts_bones(struct body *body, const struct parts_scratch *scratch,
-		 const int limb[PART_COUNT]);
+void parts_bones(struct body *body, struct parts_scratch *scratch, const int limb[PART_COUNT]);
 
 #endif

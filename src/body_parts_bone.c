@@ -65,22 +65,36 @@ static void add_joint(struct joints *joints, int place)
 	joints->at[i] = place;
 }
 
-/* The first joint is the greatest bend anywhere (elbow or ankle); a bone that is still most of the
- * limb gets its joint near its middle (a straight elbow, a knee); else a bend that shows. */
-static void find_joints(const struct path *path, struct joints *joints)
+/* Where the next joint is wanted most. A bone that is still most of the limb gets its joint near
+ * its middle (a straight elbow, a knee); else the greatest bend wins, measured in radii. */
+static float best_joint(const struct path *path, const struct joints *joints, int *place)
 {
-	float deviation_m;
-	*joints = (struct joints){2, {0, path->count - 1, 0, 0}};
-	if (path->count < 3)
-		return;
-	add_joint(joints, bend(path, 0, path->count - 1, 0.5f, &deviation_m));
-	float whole = path_length(path, 0, path->count - 1);
-	for (int i = 0; i + 1 < joints->count && joints->count < JOINTS_MAX; i++) {
+	float whole = path_length(path, 0, path->count - 1), most = 0.0f;
+	for (int i = 0; i + 1 < joints->count; i++) {
 		int from = joints->at[i], to = joints->at[i + 1];
-		bool is_long = path_length(path, from, to) > 0.62f * whole;
-		int place = bend(path, from, to, is_long ? 0.15f : 0.5f, &deviation_m);
-		if (place > from && (is_long || deviation_m > 0.4f * mean_radius(path, from, to)))
-			add_joint(joints, place);
+		float deviation_m;
+		bool is_long = joints->count > 2 && path_length(path, from, to) > 0.62f * whole;
+		int at = bend(path, from, to, is_long ? 0.15f : 0.5f, &deviation_m);
+		float want = is_long ? 100.0f : deviation_m / mean_radius(path, from, to);
+		if (at > from && at < to && want > most) {
+			most = want;
+			*place = at;
+		}
+	}
+	return most;
+}
+
+/* At least `least` joints when the path has room for them, the ends among them; more where it bends
+ * by 0.4 radii. */
+static void find_joints(const struct path *path, int least, struct joints *joints)
+{
+	int place = 0;
+	*joints = (struct joints){2, {0, path->count - 1, 0, 0}};
+	while (joints->count < JOINTS_MAX) {
+		float want = best_joint(path, joints, &place);
+		if (want <= 0.0f || (want < 0.4f && joints->count >= least))
+			return;
+		add_joint(joints, place);
 	}
 }
 
@@ -103,6 +117,44 @@ static void add_path(struct body *body, enum body_part part, const struct path *
 	}
 }
 
+/* Does a section's middle lie at least a share of its radius under the skin? */
+static bool is_covered(const struct body *body, const struct path *path, int i, float share)
+{
+	struct body_hit hit;
+	body_nearest(body, path->point_m[i], 0, &hit);
+	return hit.distance_m < -share * path->radius_m[i];
+}
+
+/* Takes the tip off a limb as far as its sections part, as a hand's do into fingers: their middle
+ * then lies in the open or just under the skin. */
+static void trim_hand(const struct body *body, struct path *path)
+{
+	for (int i = path->count / 2; i < path->count; i++)
+		if (!is_covered(body, path, i, 0.2f)) {
+			path->count = i;
+			return;
+		}
+}
+
+/* The crown's last sections are too near to it; a mouth inside the head does not matter. */
+static void trim_crown(const struct body *body, struct path *path)
+{
+	while (path->count > 3 && !is_covered(body, path, path->count - 1, 0.2f))
+		path->count--;
+}
+
+/* The lowest sections of the trunk may hold its seat alone, since the legs are left out. */
+static void trim_seat(const struct body *body, struct path *path)
+{
+	int first = 0;
+	while (first < path->count / 3 && !is_covered(body, path, first, 0.4f))
+		first++;
+	path->count -= first;
+	memmove(path->point_m, path->point_m + first, (size_t)path->count * sizeof *path->point_m);
+	memmove(path->radius_m, path->radius_m + first,
+		(size_t)path->count * sizeof *path->radius_m);
+}
+
 static void add_whole(struct body *body, enum body_part part, const struct path *path)
 {
 	struct joints ends = {2, {0, int_max(path->count - 1, 0), 0, 0}};
@@ -116,21 +168,36 @@ static void add_girdle(struct body *body, struct v3 from_m, const struct path *l
 		add_bone(body, PART_TRUNK, from_m, limb->point_m[0], limb->radius_m[0]);
 }
 
-void parts_bones(struct body *body, const struct parts_scratch *s, const int limb[PART_COUNT])
+/* Left and right have as many bones as the side that bends more. */
+static void add_limbs(struct body *body, const struct path *left, const struct path *right,
+		      enum body_part part_left, enum body_part part_right)
 {
-	const struct path *trunk = &s->trunk;
+	struct joints a, b;
+	find_joints(left, 3, &a);
+	find_joints(right, a.count, &b);
+	find_joints(left, b.count, &a);
+	add_path(body, part_left, left, &a);
+	add_path(body, part_right, right, &b);
+}
+
+void parts_bones(struct body *body, struct parts_scratch *s, const int limb[PART_COUNT])
+{
+	struct path *trunk = &s->trunk, *path[PART_COUNT] = {NULL};
 	struct joints joints;
+	for (int part = PART_HEAD; part < PART_COUNT; part++)
+		path[part] = &s->limb[limb[part]].path;
+	trim_seat(body, trunk);
+	trim_crown(body, path[PART_HEAD]);
+	for (int part = PART_ARM_LEFT; part < PART_COUNT; part++)
+		trim_hand(body, path[part]);
 	body->bone_count = 0;
-	find_joints(trunk, &joints);
+	find_joints(trunk, 3, &joints);
 	add_path(body, PART_TRUNK, trunk, &joints);
 	add_whole(body, PART_HEAD, &s->neck);
-	add_whole(body, PART_HEAD, &s->limb[limb[PART_HEAD]].path);
-	for (int part = PART_ARM_LEFT; part < PART_COUNT; part++) {
-		const struct path *path = &s->limb[limb[part]].path;
-		find_joints(path, &joints);
-		add_path(body, (enum body_part)part, path, &joints);
-	}
-	for (int part = PART_ARM_LEFT; part < PART_COUNT && trunk->count > 0; part++)
+	add_whole(body, PART_HEAD, path[PART_HEAD]);
+	add_limbs(body, path[PART_ARM_LEFT], path[PART_ARM_RIGHT], PART_ARM_LEFT, PART_ARM_RIGHT);
+	add_limbs(body, path[PART_LEG_LEFT], path[PART_LEG_RIGHT], PART_LEG_LEFT, PART_LEG_RIGHT);
+	for (int part = PART_ARM_LEFT; part < PART_COUNT; part++)
 		add_girdle(body, trunk->point_m[part < PART_LEG_LEFT ? trunk->count - 1 : 0],
-			   &s->limb[limb[part]].path);
+			   path[part]);
 }

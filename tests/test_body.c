@@ -180,6 +180,12 @@ static void test_box(void)
 	struct body_hit hit;
 	shape_box(&shape, 0.5f, 0.8f, 0.3f);
 	CHECK(!build());
+	/* however the faces are split into triangles, each counts by its angle */
+	for (int v = 0; v < 8; v++)
+		CHECK_NEAR(v3_dot(body.normal[v],
+				  (struct v3){v & 1 ? 1.0f : -1.0f, v & 2 ? 1.0f : -1.0f,
+					      v & 4 ? 1.0f : -1.0f}),
+			   1.7320508, 1e-5);
 	for (int i = 0; i < 5000; i++) {
 		struct v3 p = shape_random_point(&scatter, 1.2f);
 		body_nearest(&body, p, 0, &hit);
