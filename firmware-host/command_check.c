@@ -11,6 +11,7 @@
 #include "tape.h"
 
 #include <ctype.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <strings.h>
@@ -35,9 +36,27 @@ static void say(const char *text)
 	putchar('\n');
 }
 
+/* "PATH: ..." */
+__attribute__((format(printf, 2, 3))) static void say_of(const char *path, const char *form, ...)
+{
+	char line[FAULT_BYTES];
+	int size = snprintf(line, sizeof line, "%.250s: ", path);
+	va_list values;
+	va_start(values, form);
+	vsnprintf(line + size, sizeof line - (size_t)size, form, values);
+	va_end(values);
+	say(line);
+}
+
 static bool fail(const struct inspector *inspector)
 {
 	say(inspector->fault);
+	return false;
+}
+
+static bool fail_of(const char *path, const char *fault)
+{
+	say_of(path, "%s", fault);
 	return false;
 }
 
@@ -59,13 +78,12 @@ static bool fresh_session(struct inspector *inspector)
 
 static bool check_body(struct inspector *inspector, const char *path)
 {
-	char note[FAULT_BYTES], line[FAULT_BYTES];
+	char note[FAULT_BYTES];
 	struct body *body = &inspector->session->body;
 	if (!fresh_session(inspector) || !character_load(body, path, NULL, note, inspector->fault))
 		return fail(inspector);
-	snprintf(line, sizeof line, "%.250s: a body, sound: %d vertices, %d triangles, %d bones",
-		 path, body->vertex_count, body->triangle_count, body->bone_count);
-	say(line);
+	say_of(path, "a body, sound: %d vertices, %d triangles, %d bones", body->vertex_count,
+	       body->triangle_count, body->bone_count);
 	if (note[0])
 		say(note);
 	return true;
@@ -76,7 +94,7 @@ static bool check_body(struct inspector *inspector, const char *path)
 static bool try_edit(struct inspector *inspector, const struct journal_file *file, bool *trying)
 {
 	const struct edit *edit = inspector->edit;
-	bool on_paper = edit->kind >= EDIT_PIECE && edit->kind <= EDIT_UNMARK;
+	bool on_paper = edit->kind >= EDIT_PIECE && edit->kind <= EDIT_MARK_CLOTH;
 	if (edit->kind == EDIT_BODY || edit->kind == EDIT_BUDGET || edit->kind == EDIT_MARK_BODY)
 		return true;
 	*trying = *trying && on_paper;
@@ -93,7 +111,6 @@ static bool check_journal(struct inspector *inspector, const char *path)
 	enum journal_result result;
 	int edits = 0, faults = 0;
 	bool trying = true;
-	char line[FAULT_BYTES];
 	if (!fresh_session(inspector) || !journal_file_open(&file, path, inspector->fault))
 		return fail(inspector);
 	while ((result = journal_file_next(&file, inspector->edit, inspector->fault)) !=
@@ -105,11 +122,9 @@ static bool check_journal(struct inspector *inspector, const char *path)
 	}
 	if (faults > FAULTS_SHOWN_MAX)
 		printf("... and %d more\n", faults - FAULTS_SHOWN_MAX);
-	if (faults == 0) {
-		snprintf(line, sizeof line, "%.250s: a journal, sound: %d edits%s", path, edits,
-			 file.torn ? "; its last line is cut off and does not count" : "");
-		say(line);
-	}
+	if (faults == 0)
+		say_of(path, "a journal, sound: %d edits%s", edits,
+		       file.torn ? "; its last line is cut off and does not count" : "");
 	journal_file_close(&file);
 	return faults == 0;
 }
@@ -118,24 +133,20 @@ static bool check_pattern(struct inspector *inspector, const char *path)
 {
 	static struct pattern pattern;
 	size_t size;
-	char wrong[200], line[FAULT_BYTES];
+	char wrong[200];
 	int pieces = 0, seams = 0;
 	char *text = store_read(path, &size, inspector->fault);
 	if (!text)
 		return fail(inspector);
 	bool read = format_garment_read(&pattern, text, size, wrong);
 	free(text);
-	if (!read) {
-		snprintf(inspector->fault, FAULT_BYTES, "%.250s: %s", path, wrong);
-		return fail(inspector);
-	}
+	if (!read)
+		return fail_of(path, wrong);
 	for (int p = 0; p < PIECES_MAX; p++)
 		pieces += pattern.piece[p].used;
 	for (int s = 0; s < SEAMS_MAX; s++)
 		seams += pattern.seam[s].used;
-	snprintf(line, sizeof line, "%.250s: a pattern, sound: %d pieces, %d seams", path, pieces,
-		 seams);
-	say(line);
+	say_of(path, "a pattern, sound: %d pieces, %d seams", pieces, seams);
 	return true;
 }
 
@@ -143,17 +154,15 @@ static bool check_board(struct inspector *inspector, const char *path)
 {
 	struct board board;
 	size_t size;
-	char wrong[200], line[FAULT_BYTES];
+	char wrong[200];
 	char *text = store_read(path, &size, inspector->fault);
 	if (!text)
 		return fail(inspector);
 	bool read = board_read(&board, text, size, wrong);
 	free(text);
-	snprintf(read ? line : inspector->fault, FAULT_BYTES, "%.250s: %s", path,
-		 read ? "a board, sound" : wrong);
 	if (!read)
-		return fail(inspector);
-	say(line);
+		return fail_of(path, wrong);
+	say_of(path, "a board, sound");
 	return true;
 }
 
@@ -161,12 +170,10 @@ static void say_device(const char *path, const struct tape *tape, int device, st
 {
 	static const char *const kind[] = {"unknown", "a pen", "buttons"};
 	const struct tape_device *described = &tape->device[device];
-	char line[FAULT_BYTES];
 	pen_describe(pen, device, described->descriptor, described->descriptor_size);
-	snprintf(line, sizeof line, "%.250s: device %d, %.60s: %s%s%s", path, device,
-		 described->name, kind[pen->device[device].kind],
-		 pen->device[device].reason[0] ? ": " : "", pen->device[device].reason);
-	say(line);
+	say_of(path, "device %d, %.60s: %s%s%s", device, described->name,
+	       kind[pen->device[device].kind], pen->device[device].reason[0] ? ": " : "",
+	       pen->device[device].reason);
 }
 
 static bool check_tape(struct inspector *inspector, const char *path)
@@ -174,19 +181,15 @@ static bool check_tape(struct inspector *inspector, const char *path)
 	static struct tape tape;
 	static struct pen pen;
 	size_t size;
-	char wrong[200], line[FAULT_BYTES];
+	char wrong[200];
 	char *text = store_read(path, &size, inspector->fault);
 	if (!text)
 		return fail(inspector);
 	bool read = tape_read(&tape, text, size, wrong);
 	free(text);
-	if (!read) {
-		snprintf(inspector->fault, FAULT_BYTES, "%.250s: %s", path, wrong);
-		return fail(inspector);
-	}
-	snprintf(line, sizeof line, "%.250s: a tape, sound: %zu reports, %d frames", path,
-		 tape.event_count, tape.frame_count);
-	say(line);
+	if (!read)
+		return fail_of(path, wrong);
+	say_of(path, "a tape, sound: %zu reports, %d frames", tape.event_count, tape.frame_count);
 	pen_init(&pen, 1920, 1080);
 	for (int d = 0; d < TAPE_DEVICES_MAX; d++)
 		if (tape.device[d].used)
@@ -234,11 +237,8 @@ static bool check_file(struct inspector *inspector, const char *path)
 		return check_board(inspector, path);
 	if (line_begins(head, "v ") || ends_with(path, ".obj"))
 		return check_body(inspector, path);
-	snprintf(inspector->fault, FAULT_BYTES,
-		 "%.250s: what kind of file is this? Known are journals (.kitsuke), tapes (.hid), "
-		 "bodies (.obj), patterns (.json) and boards (.board)",
-		 path);
-	return fail(inspector);
+	return fail_of(path, "what kind of file is this? Known are journals (.kitsuke), tapes "
+			     "(.hid), bodies (.obj), patterns (.json) and boards (.board)");
 }
 
 int command_check(int argc, char **argv)

@@ -1,15 +1,7 @@
 #!/bin/sh
 # The commands' contracts as a person meets them: exit status, messages with file, place and remedy,
-# and files that are there afterwards. KITSUKE is the program.
-kitsuke=${KITSUKE:-build/release/kitsuke}
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-failures=0
-
-fail() {
-  echo "$*" >&2
-  failures=$((failures + 1))
-}
+# and files that are there afterwards.
+. tests/shell.sh
 
 # expect STATUS WORDS COMMAND...: the exit status, and words somewhere in what it says.
 expect() {
@@ -133,4 +125,4 @@ test_check
 test_dress_faults
 test_import
 test_dress
-[ $failures = 0 ]
+finish

@@ -1,19 +1,11 @@
 #!/bin/sh
 # Garments and bodies that nobody here made: a real pattern, imported, marked by hand, wrapped on a
 # real body, and judged by the report.
-kitsuke=${KITSUKE:-build/release/kitsuke}
+. tests/shell.sh
 data=../shared/data
 [ -d "$data/patterns/seams" ] || {
   echo "skip: ../shared/data is not there"
   exit 77
-}
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-failures=0
-
-fail() {
-  echo "$*" >&2
-  failures=$((failures + 1))
 }
 
 # value KEY: the number behind a key of the report
@@ -45,4 +37,4 @@ below strain_p95 0.10 teagan
 equal head_through_collar true teagan
 equal arms_in_sleeves 2 teagan
 below seam_gap_mm_max 0.001 teagan
-[ "$failures" = 0 ]
+finish

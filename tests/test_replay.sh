@@ -1,16 +1,8 @@
 #!/bin/sh
 # The bundled visit, from raw reports to the garment: what comes out, and that the journal which the
-# station would have written makes the very same state. KITSUKE is the program.
-kitsuke=${KITSUKE:-build/release/kitsuke}
+# station would have written makes the very same state.
+. tests/shell.sh
 tape=$(ls tests/tapes/*.hid | head -n 1)
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-failures=0
-
-fail() {
-  echo "$*" >&2
-  failures=$((failures + 1))
-}
 
 hash_of() {
   sed -n 's/^hash \([0-9a-f]*\).*/\1/p'
@@ -49,4 +41,4 @@ test_samples() {
 test_replay
 test_document_is_its_journal
 test_samples
-[ $failures = 0 ]
+finish
