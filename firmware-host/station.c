@@ -33,10 +33,11 @@ enum {
 
 static const char usage[] =
 	"usage: kitsuke [--board FILE] [--body FILE|mannequin] [--journals FOLDER]\n"
-	"               [--else-replay TAPE --out DIR]\n";
+	"               [--bones] [--else-replay TAPE --out DIR]\n";
 
 struct station {
 	const char *board_path, *body, *journals, *tape, *out;
+	bool bones; /* drawn over the figure, for the operator */
 	struct board board;
 	enum display_kind kind;
 	struct display *display;
@@ -112,8 +113,10 @@ static bool open_display(struct station *station)
 	station->display = display_open(station->kind, &station->width, &station->height, fault);
 	if (station->display)
 		station->draw = draw_open(station->width, station->height, fault);
-	if (station->draw)
+	if (station->draw) {
+		draw_bones(station->draw, station->bones);
 		return true;
+	}
 	if (station->display)
 		display_close(station->display);
 	station->display = NULL;
@@ -363,7 +366,8 @@ static bool read_options(struct station *station, int argc, char **argv)
 			       {"--journals", &station->journals},
 			       {"--else-replay", &station->tape},
 			       {"--out", &station->out}};
-		bool known = false;
+		bool known = strcmp(argv[i], "--bones") == 0;
+		station->bones |= known;
 		for (int k = 0; k < COUNT_OF(options) && !known; k++)
 			if (strcmp(argv[i], options[k].word) == 0 && i + 1 < argc) {
 				*options[k].value = argv[++i];

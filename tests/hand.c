@@ -17,9 +17,9 @@ static const float DRAWING_SPEED = 220.0f; /* pixels a second: with care, as out
  * the other half. Straight runs, but for the neckline. */
 static const struct v2 half_shirt_mm[] = {
 	{82.0f, 0.0f},     /* neck side */
-	{440.0f, -186.0f}, /* sleeve end, above */
-	{362.0f, -330.0f}, /* sleeve end, below */
-	{242.0f, -266.0f}, /* underarm */
+	{420.0f, -237.0f}, /* sleeve end, above */
+	{322.0f, -374.0f}, /* sleeve end, below */
+	{242.0f, -313.0f}, /* underarm */
 	{250.0f, -670.0f}, /* hem */
 };
 
@@ -276,9 +276,9 @@ static void visit(struct hand *hand)
 	hand_wait(hand, 0.5f);
 	say(hand, "hem pulled");
 
-	pin_at(hand, (struct v2){200.0f, -105.0f});
-	pin_at(hand, (struct v2){215.0f, -205.0f});
-	pull(hand, (struct v2){396.0f, -250.0f}, (struct v2){-24.0f, -36.0f});
+	pin_at(hand, (struct v2){190.0f, -100.0f});
+	pin_at(hand, (struct v2){205.0f, -215.0f});
+	pull(hand, (struct v2){366.0f, -296.0f}, (struct v2){-16.0f, -24.0f});
 	hand_wait(hand, 0.5f);
 	say(hand, "sleeve rolled");
 

@@ -1,7 +1,7 @@
 /* A hand that writes tapes: moves a pen over a tablet as people do and presses the buttons, while
  * the very program that will play the tape runs beside it, so that the hand sees what it does.
  *
- * The motion: minimum-jerk starts and ends, slower in bends, tremor of 8 to 11 Hz, pressure that
+ * The motion: slow starts and ends, slower in bends, tremor of 8 to 11 Hz, pressure that
  * rises and falls within 40 ms, a tilt that drifts; reports every 5 ms as the tablet sends them. */
 #ifndef HAND_H
 #define HAND_H

@@ -187,27 +187,44 @@ void hand_leave(struct hand *hand)
 
 /* ---- motion ---- */
 
-/* Walks the path's arc length under a bell of speed: quick in the middle, slow at both ends. */
+/* How far along the path the nearest bend of more than 35 degrees lies. */
+static float bend_distance(const struct v2 *path_px, const float *along, int count, float s)
+{
+	float nearest = 1e9f;
+	for (int i = 1; i + 1 < count; i++) {
+		struct v2 before = v2_normalize(v2_sub(path_px[i], path_px[i - 1]));
+		struct v2 after = v2_normalize(v2_sub(path_px[i + 1], path_px[i]));
+		if (v2_dot(before, after) < 0.82f)
+			nearest = float_min(nearest, float_abs(along[i] - s));
+	}
+	return nearest;
+}
+
+/* The pace of a hand: from slow to full within 30 pixels after the start, before the end and round
+ * bends. */
+static float pace(float distance_px)
+{
+	return float_clamp(0.25f + 0.75f * distance_px / 30.0f, 0.25f, 1.0f);
+}
+
 void hand_follow(struct hand *hand, const struct v2 *path_px, int count, float speed)
 {
 	static float along[HAND_PATH_MAX];
-	MUST(count >= 1 && count <= HAND_PATH_MAX);
+	MUST(count >= 2 && count <= HAND_PATH_MAX);
 	along[0] = 0.0f;
 	for (int i = 1; i < count; i++)
 		along[i] = along[i - 1] + v2_distance(path_px[i - 1], path_px[i]);
-	float length = along[count - 1];
-	int ticks = int_max(8, (int)(length / speed * 1e6f) / REPORT_INTERVAL_US + 20);
-	int at = 1;
-	for (int t = 1; t <= ticks; t++) {
-		float u = (float)t / (float)ticks;
-		/* half uniform, half minimum jerk: long strokes keep an even pace */
-		float bell = u * u * u * (10.0f - 15.0f * u + 6.0f * u * u);
-		float s = length * (0.5f * u + 0.5f * bell);
+	float length = along[count - 1], s = 0.0f;
+	for (int at = 1; s < length;) {
+		float step = speed * (float)REPORT_INTERVAL_US * 1e-6f;
+		float ends = float_min(s, length - s);
+		s += step * float_min(pace(ends), pace(bend_distance(path_px, along, count, s)));
+		s = float_min(s, length);
 		while (at < count - 1 && along[at] < s)
 			at++;
-		float step = count > 1 ? along[at] - along[at - 1] : 0.0f;
-		float f = step > 1e-6f ? float_clamp((s - along[at - 1]) / step, 0.0f, 1.0f) : 1.0f;
-		hand->at_px = count > 1 ? v2_lerp(path_px[at - 1], path_px[at], f) : path_px[0];
+		float run = float_max(along[at] - along[at - 1], 1e-6f);
+		hand->at_px = v2_lerp(path_px[at - 1], path_px[at],
+				      float_clamp((s - along[at - 1]) / run, 0.0f, 1.0f));
 		tick(hand);
 	}
 }
