@@ -12,7 +12,8 @@ struct wrap_scratch {
 	int *edge_first;    /* per vertex + 1: triangles on edges whose lower vertex it is */
 	int *edge_triangle; /* triangle * 3 + corner */
 	float along_m[MARK_POINTS_MAX];
-	int rounds; /* folds turned back so far */
+	bool disagree; /* the marks were found to pull seams apart */
+	int rounds;    /* folds turned back so far */
 	struct v3 mark_point_m[MARK_POINTS_MAX], mark_normal[MARK_POINTS_MAX];
 };
 

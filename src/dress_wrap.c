@@ -16,6 +16,7 @@ enum {
 };
 
 static const float gap_late_m = 0.02f;   /* seams wider than this need more closing */
+static const float gap_held_m = 0.12f;   /* no agreeing marks hold a seam so wide */
 static const float gap_agrees_m = 0.06f; /* seams wider than this before the weld: marks disagree */
 
 void wrap_init(struct wrap *wrap, struct arena *arena)
@@ -93,6 +94,7 @@ bool wrap_start(struct wrap *wrap, struct cloth *cloth, const struct marks *mark
 	wrap->frames = 0;
 	wrap->mark_error_rms_m = wrap->mark_error_max_m = 0.0f;
 	wrap->scratch->rounds = 0;
+	wrap->scratch->disagree = false;
 	memset(&wrap->diagnoses, 0, sizeof wrap->diagnoses);
 	cloth->settings = growing();
 	if (wrap_seed(wrap) == 0) {
@@ -158,11 +160,11 @@ static int count_pairs(const struct cloth *cloth, int seam, float wide_m, int *w
 }
 
 /* Names the marks on both sides of every seam whose median gap is too wide. */
-static void diagnose_gaps(struct wrap *wrap)
+static void diagnose_gaps(struct wrap *wrap, float wide_m)
 {
 	const struct garment *garment = wrap->cloth->garment;
 	for (int seam = 0; seam < SEAMS_MAX; seam++) {
-		int wide, i = 0, count = count_pairs(wrap->cloth, seam, gap_agrees_m, &wide);
+		int wide, i = 0, count = count_pairs(wrap->cloth, seam, wide_m, &wide);
 		if (2 * wide <= count)
 			continue;
 		while (garment->pair[i].seam != seam)
@@ -181,7 +183,8 @@ static void end_close(struct wrap *wrap)
 {
 	struct cloth *cloth = wrap->cloth;
 	int wide, count = count_pairs(cloth, -1, gap_agrees_m, &wide);
-	diagnose_gaps(wrap);
+	if (!wrap->scratch->disagree)
+		diagnose_gaps(wrap, gap_agrees_m);
 	if (3 * wide <= count) {
 		cloth_weld(cloth);
 		enter(wrap, WRAP_WELD, closing());
@@ -204,8 +207,12 @@ static bool seams_late(const struct cloth *cloth)
 static long close_up(struct wrap *wrap)
 {
 	int after = wrap->progress - CLOSE_SWEEPS;
-	if (after == 0)
+	if (after == 0) {
+		int before = wrap->diagnoses.count;
+		diagnose_gaps(wrap, gap_held_m);
+		wrap->scratch->disagree = wrap->diagnoses.count > before;
 		release_marks(wrap);
+	}
 	if (after == LATE_SWEEPS || (after >= RELEASE_SWEEPS && !seams_late(wrap->cloth))) {
 		end_close(wrap);
 		return 1;
@@ -245,20 +252,25 @@ static long settle(struct wrap *wrap)
 	return 1;
 }
 
+static bool is_running(const struct wrap *wrap)
+{
+	return wrap->stage != WRAP_DONE && wrap->stage != WRAP_IDLE;
+}
+
 long wrap_advance(struct wrap *wrap, long quota)
 {
 	long units = 0;
 	wrap->frames++;
-	while (units < quota && wrap->stage != WRAP_DONE && wrap->stage != WRAP_IDLE) {
+	do {
 		if (wrap->stage == WRAP_GROW)
 			units += grow(wrap);
 		else if (wrap->stage == WRAP_CLOSE)
 			units += close_up(wrap);
 		else if (wrap->stage == WRAP_WELD)
 			units += weld(wrap);
-		else
+		else if (wrap->stage == WRAP_SETTLE)
 			units += settle(wrap);
-	}
+	} while (units < quota && is_running(wrap));
 	cloth_finish(wrap->cloth);
 	return units;
 }
