@@ -112,8 +112,10 @@ struct rect live_extent(const struct easel *easel)
 void draw_live(const struct easel *easel)
 {
 	const struct ui *ui = easel->ui;
-	if (ui->gesture == GESTURE_MOVE && piece_used(easel->session, ui->piece))
+	if (ui->gesture == GESTURE_MOVE && piece_used(easel->session, ui->piece)) {
 		draw_piece(easel, ui->piece, ui->move_mm, true);
+		draw_name(easel, ui->piece, ui->move_mm);
+	}
 	if (ui->gesture == GESTURE_SEW)
 		draw_sewing(easel);
 	if (ui->gesture == GESTURE_PIECE)

@@ -77,13 +77,13 @@ static void path_outline(const struct easel *easel, const struct piece *piece, s
 struct rect piece_area(const struct easel *easel, int piece, struct v2 shift_mm)
 {
 	struct v2 low, high;
-	int margin = (int)(64.0 * easel->unit);
+	int margin = (int)(64.0 * easel->unit), words = (int)(150.0 * easel->unit);
 	piece_bounds(piece_of(easel, piece), &low, &high);
 	low = view_sheet_px(&easel->ui->view, v2_add(low, shift_mm));
 	high = view_sheet_px(&easel->ui->view, v2_add(high, shift_mm));
-	return (struct rect){(int)low.x - margin, (int)high.y - margin,
-			     (int)(high.x - low.x) + 2 * margin,
-			     (int)(low.y - high.y) + 2 * margin};
+	int aside = int_max(margin, words - (int)(0.5f * (high.x - low.x)));
+	return (struct rect){(int)low.x - aside, (int)high.y - margin,
+			     (int)(high.x - low.x) + 2 * aside, (int)(low.y - high.y) + 2 * margin};
 }
 
 /* ---- a piece ---- */
@@ -196,8 +196,8 @@ static void draw_mark(const struct easel *easel, const struct cloth_mark *mark, 
 		    has_partner(easel->session, mark->number));
 }
 
-/* The name under the piece, and which side is up. Pieces drawn here are named by number. */
-static void draw_name(const struct easel *easel, int p, struct v2 shift_mm)
+/* Pieces drawn here are named by number; a piece that shows its reverse says so. */
+static void name_text(const struct easel *easel, int p, char *text, size_t size)
 {
 	const struct piece *piece = piece_of(easel, p);
 	const struct phrase *cloth = &text_phrase[TEXT_CLOTH],
@@ -207,23 +207,84 @@ static void draw_name(const struct easel *easel, int p, struct v2 shift_mm)
 	const char *ja = language == LANGUAGE_ENGLISH ? "" : cloth->japanese;
 	const char *en = language == LANGUAGE_JAPANESE ? "" : cloth->english;
 	const char *gap = language == LANGUAGE_BOTH ? " " : "";
-	char text[160], side[64] = "";
+	char side[64] = "";
 	if (piece->inside_up && language == LANGUAGE_BOTH)
 		snprintf(side, sizeof side, "（%s %s）", inside->japanese, inside->english);
 	else if (piece->inside_up)
 		snprintf(side, sizeof side, "（%s）",
 			 language == LANGUAGE_JAPANESE ? inside->japanese : inside->english);
 	if (named)
-		snprintf(text, sizeof text, "%.*s%s", NAME_BYTES_MAX, piece->name, side);
+		snprintf(text, size, "%.*s%s", NAME_BYTES_MAX, piece->name, side);
 	else
-		snprintf(text, sizeof text, "%s%s%s %d%s", ja, gap, en, p + 1, side);
+		snprintf(text, size, "%s%s%s %d%s", ja, gap, en, p + 1, side);
+}
+
+/* Room for words, at a guess that errs on the wide side: Japanese fills its square. */
+static float words_width(const char *text, float size_px)
+{
+	float width = 0.0f;
+	for (; *text; text++) {
+		unsigned char byte = (unsigned char)*text;
+		width += byte >= 0xe0 ? 1.0f : byte < 0x80 ? 0.6f : 0.0f;
+	}
+	return width * size_px;
+}
+
+struct words_place {
+	bool inside;  /* all of it on its own piece */
+	bool crowded; /* some of it on another piece */
+};
+
+/* A line of words as a row of places. */
+static struct words_place words_place(const struct easel *easel, int p, struct v2 centre_px,
+				      float width_px, struct v2 shift_mm)
+{
+	enum { PLACES = 7 };
+	struct words_place found = {true, false};
+	for (int i = 0; i < PLACES; i++) {
+		float t = (float)i / (float)(PLACES - 1) - 0.5f;
+		struct v2 at_px = {centre_px.x + t * width_px, centre_px.y};
+		struct v2 at_mm = view_sheet_mm(&easel->ui->view, at_px);
+		for (int q = 0; q < PIECES_MAX; q++) {
+			if (!piece_used(easel->session, q))
+				continue;
+			const struct piece *piece = piece_of(easel, q);
+			struct v2 place = q == p ? v2_sub(at_mm, shift_mm) : at_mm;
+			bool over = piece_contains(piece, piece_from_sheet(piece, place));
+			found.inside = found.inside && (q != p || over);
+			found.crowded = found.crowded || (q != p && over);
+		}
+	}
+	return found;
+}
+
+/* Under the piece, where paper is free; on its cloth above the hem otherwise. */
+void draw_name(const struct easel *easel, int p, struct v2 shift_mm)
+{
+	const struct piece *piece = piece_of(easel, p);
+	float u = (float)easel->unit, size = 22.0f * u;
+	char text[160];
 	struct v2 low, high;
+	name_text(easel, p, text, sizeof text);
 	piece_bounds(piece, &low, &high);
-	struct v2 at = view_sheet_px(&easel->ui->view,
-				     v2_add((struct v2){0.5f * (low.x + high.x), low.y}, shift_mm));
-	struct style style = {22.0 * easel->unit, false, LOOK_INK_GREY, ALIGN_CENTRE, 0.0};
-	draw_text(easel->cr, easel->type, text, (double)at.x, (double)at.y + 34.0 * easel->unit,
-		  &style);
+	struct v2 hem = view_sheet_px(
+		&easel->ui->view, v2_add((struct v2){0.5f * (low.x + high.x), low.y}, shift_mm));
+	struct rect pane = easel->ui->view.sheet_pane;
+	float lowest = (float)(pane.y + pane.h) - 13.0f * u;
+	struct v2 below = {hem.x, float_min(hem.y + 26.0f * u, lowest)};
+	struct v2 above = {hem.x, hem.y - 24.0f * u};
+	float width = words_width(text, size);
+	struct style style = {(double)size, false, LOOK_INK_GREY, ALIGN_CENTRE, 0.0};
+	bool free = below.y - hem.y > 16.0f * u &&
+		    !words_place(easel, p, below, width, shift_mm).crowded;
+	struct v2 at = below;
+	if (!free && words_place(easel, p, above, width, shift_mm).inside) {
+		uint32_t cloth = (piece->inside_up ? look_inside
+						   : look_outside)[piece->swatch & (SWATCHES - 1)];
+		style.colour = (cloth >> 8 & 255) < 0x70 ? 0xf6f2ea : LOOK_INK;
+		at = above;
+	}
+	draw_text(easel->cr, easel->type, text, (double)at.x, (double)(at.y + 8.0f * u), &style);
 }
 
 void draw_piece(const struct easel *easel, int p, struct v2 shift_mm, bool raised)
@@ -235,7 +296,6 @@ void draw_piece(const struct easel *easel, int p, struct v2 shift_mm, bool raise
 	stroke_outline(easel, piece, shift_mm, selected);
 	if (easel->ui->step == STEP_SEW || selected)
 		draw_corners(easel, piece, shift_mm);
-	draw_name(easel, p, shift_mm);
 	for (int m = 0; m < MARKS_MAX; m++) {
 		const struct cloth_mark *mark = &easel->session->document.marks.cloth[m];
 		if (mark->used && mark->piece == p && mark->point_count > 0)

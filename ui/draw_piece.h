@@ -33,6 +33,9 @@ static inline struct v2 local_px(const struct easel *easel, const struct piece *
 /* A piece, shifted on the sheet by shift_mm (while it is moved), raised then. */
 void draw_piece(const struct easel *easel, int piece, struct v2 shift_mm, bool raised);
 
+/* Its name and which side is up, where they cover no other piece. */
+void draw_name(const struct easel *easel, int piece, struct v2 shift_mm);
+
 /* The outline's edge as a current path, moved inwards by `inset` px. */
 void path_edge(const struct easel *easel, struct edge_ref edge, double inset);
 

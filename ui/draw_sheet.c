@@ -92,6 +92,9 @@ static void draw_still(const struct sheet *sheet, const struct easel *screen, st
 		if (lowest != moving_piece(easel.ui))
 			draw_piece(&easel, lowest, (struct v2){0.0f, 0.0f}, false);
 	}
+	for (int p = 0; p < PIECES_MAX; p++)
+		if (pattern->piece[p].used && p != moving_piece(easel.ui))
+			draw_name(&easel, p, (struct v2){0.0f, 0.0f});
 	if (moving_piece(easel.ui) < 0)
 		draw_seams(&easel);
 	draw_pins(&easel);

@@ -38,13 +38,15 @@ const struct phrase text_phrase[TEXT_COUNT] = {
 	[TEXT_HINT_MARK_CLOTH] = {"まず布の上に、線を引こう", "First draw a line on the cloth"},
 	[TEXT_HINT_MARK_BODY] = {"体の同じところに、線を引こう",
 				 "Now draw its partner on the body"},
+	[TEXT_HINT_MARK_PARTNER] = {"布の同じところに、線を引こう",
+				    "Now draw its partner on the cloth"},
 	[TEXT_HINT_MARK_PAIR] = {"線が合ったら「着せる」を押そう",
 				 "When the lines match, press WRAP"},
 	[TEXT_HINT_ERASE] = {"消したい線や番号に触れよう", "Touch a line or number to erase it"},
 	[TEXT_HINT_LASER] = {"ひとつの線で、前と後に印がつきます",
 			     "One line marks the front and the back"},
 	[TEXT_HINT_DRESS] = {"印をつけて「着せる」を押そう", "Make marks, then press WRAP"},
-	[TEXT_HINT_DRESSING] = {"着せています…", "Dressing…"},
+	[TEXT_HINT_DRESSING] = {"着せています…", "Dressing..."},
 	[TEXT_HINT_WORN] = {"服に触れて、動かしてみよう", "Touch the garment and pull it"},
 	[TEXT_HINT_ADJUST] = {"服をつまんで、体に沿って動かそう",
 			      "Drag the garment along the body"},
@@ -143,6 +145,8 @@ static enum text hint_mark(const struct ui *ui, const struct session *session)
 		return TEXT_HINT_LASER;
 	if (cloth > body)
 		return TEXT_HINT_MARK_BODY;
+	if (body > cloth)
+		return TEXT_HINT_MARK_PARTNER;
 	return cloth > 0 && cloth == body ? TEXT_HINT_MARK_PAIR : TEXT_HINT_MARK_CLOTH;
 }
 
