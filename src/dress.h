@@ -69,7 +69,7 @@ struct drag {
 	int order_count;
 	int *order;        /* particles by distance from the grabbed point */
 	float *distance_m; /* per particle, along the body's surface; below 0: not reached */
-	float *share;      /* per particle 0..1: what the pins leave of the motion */
+	float *share;      /* per particle 0..1: what the pins leave of the motion, r (2 - r) */
 	int *from_first;   /* per place in `order` + 1: who hands the motion on, from[from_first[k]
 			      ..] */
 	int *from;

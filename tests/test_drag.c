@@ -209,6 +209,36 @@ static void check_tracking(struct scene *scene, const struct worn *worn)
 	CHECK(edit(scene, EDIT_RELEASE, 0, 0.0f, 0.0f, 0.0f));
 }
 
+/* What the pins leave of the motion at a place; -1: the graph does not reach it. */
+static float share_at(const struct scene *scene, int piece, float x_mm, float y_mm)
+{
+	const struct session *session = &scene->session;
+	float weight[3], share = 0.0f;
+	int t = garment_locate(&session->garment, piece, (struct v2){x_mm, y_mm}, weight);
+	MUST(t >= 0);
+	for (int k = 0; k < 3; k++) {
+		int particle = session->cloth.triangle[t].v[k];
+		if (session->drag.distance_m[particle] < 0.0f)
+			return -1.0f;
+		share += weight[k] * session->drag.share[particle];
+	}
+	return share;
+}
+
+/* The graph ends at the fence (S12), and half way to it three quarters of the motion are left
+ * (S16).
+ */
+static void check_shares(const struct scene *scene)
+{
+	for (float y_mm = -340.0f; y_mm < -200.0f; y_mm += 20.0f)
+		for (int piece = 0; piece < 2; piece++)
+			CHECK(share_at(scene, piece, 0.0f, y_mm) < 0.0f);
+	CHECK_NEAR(share_at(scene, 0, 0.0f, -640.0f), 1.0f, 0.02f);
+	CHECK_NEAR(share_at(scene, 0, 0.0f, -520.0f), 0.75f, 0.1f);
+	float near_pin = share_at(scene, 0, 0.0f, -430.0f);
+	CHECK(near_pin > 0.0f && near_pin < 0.4f);
+}
+
 /* Pins 47 mm apart all round the waist: what lies above them stays. */
 static void check_fence(struct scene *scene, const struct worn *worn)
 {
@@ -223,6 +253,7 @@ static void check_fence(struct scene *scene, const struct worn *worn)
 	for (int i = 0; i < 3; i++)
 		behind[i] = place(scene, i / 2, 100.0f * (float)i, -320.0f);
 	drag_by(scene, 0, (struct v2){0.0f, -640.0f}, (struct v3){0.08f, 0.0f, 0.0f}, 10, 10);
+	check_shares(scene);
 	for (int i = 0; i < 3; i++) {
 		struct v3 now = place(scene, i / 2, 100.0f * (float)i, -320.0f);
 		most_mm = float_max(most_mm, mm(v3_distance(now, behind[i])));
