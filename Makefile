@@ -1,7 +1,7 @@
 # make              build kitsuke (build/release/kitsuke)
 # make run          install what is missing, build, and run the main job
 # make check        install what is missing, build, and pass the tests and the layer checks
-# make bench        microseconds and work units per stage of a frame
+# make bench        microseconds and work units per stage of a frame (tests/bench_frame.c), and of parts
 # make fuzz         every fuzzer for FUZZ_SECONDS (10) each
 # make hash-matrix  the bundled tape's hash over compilers, levels, sanitizers and aarch64
 # make format       clang-format everything; format-check only looks
@@ -43,6 +43,7 @@ CFLAGS_coverage := -O0 --coverage
 CFLAGS_fuzz     := -O1 -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all
 FLAGS           := $(CFLAGS_common) $(CFLAGS_$(config)) $(CFLAGS)
 
+comma := ,
 sources = $(wildcard $(1)/*.c)
 objects = $(patsubst %.c,$(B)/%.o,$(1))
 
@@ -83,6 +84,10 @@ $(TESTS) $(BENCH) $(FUZZ): %: %.o $(B)/kitsuke.a
 .SECONDEXPANSION:
 $(TOOLS): %: %.o $$(call objects,$$(wildcard $$(subst $(B)/,,$$@)_*.c)) $(B)/kitsuke.a
 $(FUZZ): LINK := -fsanitize=fuzzer
+# Calls that a program of the tests wants to see pass: the linker sends our calls of f to __wrap_f.
+$(B)/tests/bench_frame: LINK := -Wl,--wrap=drag_move
+$(B)/tests/test_allocation: LINK := $(patsubst %,-Wl$(comma)--wrap=%,malloc calloc realloc \
+                             aligned_alloc posix_memalign strdup strndup)
 
 $(B)/kitsuke $(TESTS) $(BENCH) $(FUZZ) $(TOOLS):
 	$(call SHORT,link)$(CC) $(FLAGS) $^ $(LINK) $(LDFLAGS) -Wl,--as-needed $(PACKAGE_LIBS) -lm -lpthread -o $@

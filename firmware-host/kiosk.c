@@ -40,9 +40,27 @@ void kiosk_body_named(struct kiosk *kiosk, const char *name)
 	journal_append(kiosk, &budget);
 }
 
-/* Refused edits are written too: refusing is part of what happened. */
-static void apply_edits(struct kiosk *kiosk)
+void kiosk_listen(struct kiosk *kiosk, const struct frame_reports *reports, unsigned unplugged)
 {
+	int64_t now_us = (int64_t)(kiosk->frame + 1) * 1000000 / FRAME_RATE_HZ;
+	kiosk->input = (struct frame_input){0};
+	pen_read(&kiosk->pen, reports, now_us, &kiosk->input);
+	for (int device = 0; device < PEN_DEVICES_MAX; device++)
+		if (unplugged >> device & 1)
+			pen_unplugged(&kiosk->pen, device, &kiosk->input);
+}
+
+void kiosk_face(struct kiosk *kiosk)
+{
+	kiosk->edits.count = 0;
+	ui_update(&kiosk->ui, &kiosk->input, &kiosk->session, &kiosk->edits);
+}
+
+/* Refused edits are written too: refusing is part of what happened. */
+void kiosk_apply(struct kiosk *kiosk)
+{
+	if (kiosk->frame > 0)
+		kiosk->journal_size = 0;
 	for (int i = 0; i < kiosk->edits.count; i++) {
 		journal_steps(kiosk);
 		journal_append(kiosk, &kiosk->edits.item[i]);
@@ -50,24 +68,19 @@ static void apply_edits(struct kiosk *kiosk)
 	}
 }
 
-void kiosk_frame(struct kiosk *kiosk, const struct frame_reports *reports, unsigned unplugged)
+void kiosk_advance(struct kiosk *kiosk)
 {
-	int64_t now_us = (int64_t)(kiosk->frame + 1) * 1000000 / FRAME_RATE_HZ;
-	kiosk->input = (struct frame_input){0};
-	kiosk->edits.count = 0;
-	if (kiosk->frame > 0)
-		kiosk->journal_size = 0;
-
-	pen_read(&kiosk->pen, reports, now_us, &kiosk->input); /* bytes -> samples */
-	for (int device = 0; device < PEN_DEVICES_MAX; device++)
-		if (unplugged >> device & 1)
-			pen_unplugged(&kiosk->pen, device, &kiosk->input);
-	ui_update(&kiosk->ui, &kiosk->input, &kiosk->session, &kiosk->edits); /* samples -> edits */
-	apply_edits(kiosk);               /* edits -> document */
-	session_advance(&kiosk->session); /* jobs, then solver */
-
+	session_advance(&kiosk->session);
 	kiosk->steps++;
 	kiosk->frame++;
+}
+
+void kiosk_frame(struct kiosk *kiosk, const struct frame_reports *reports, unsigned unplugged)
+{
+	kiosk_listen(kiosk, reports, unplugged); /* bytes -> samples */
+	kiosk_face(kiosk);                       /* samples -> edits */
+	kiosk_apply(kiosk);                      /* edits -> document, journal */
+	kiosk_advance(kiosk);                    /* jobs, then solver */
 }
 
 void kiosk_finish(struct kiosk *kiosk)

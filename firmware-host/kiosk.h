@@ -32,6 +32,12 @@ void kiosk_body_named(struct kiosk *kiosk, const char *name);
  * Read this function first. */
 void kiosk_frame(struct kiosk *kiosk, const struct frame_reports *reports, unsigned unplugged);
 
+/* Its stages, in this order, for whoever times them one by one (tests/bench_frame.c). */
+void kiosk_listen(struct kiosk *kiosk, const struct frame_reports *reports, unsigned unplugged);
+void kiosk_face(struct kiosk *kiosk);
+void kiosk_apply(struct kiosk *kiosk);
+void kiosk_advance(struct kiosk *kiosk);
+
 /* Ends the journal: the frames since the last line. */
 void kiosk_finish(struct kiosk *kiosk);
 
