@@ -53,6 +53,7 @@ static void frame_in_parts(struct bench *bench)
 	bench->mark_ms = now_ms(CLOCK_MONOTONIC);
 	bench->mark_cpu_ms = now_ms(CLOCK_PROCESS_CPUTIME_ID);
 	cloth_upload(draw, session);
+	cover_follow(draw, session);
 	trim_follow(draw, session);
 	camera_make(&draw->camera, &ui->view, &session->body);
 	lap(bench, 0, "cloth upload");

@@ -193,6 +193,7 @@ void draw_frame(struct draw *draw, const struct ui *ui, const struct session *se
 	    session->body.vertex_count)
 		body_upload(draw, &session->body);
 	cloth_upload(draw, session);
+	cover_follow(draw, session);
 	trim_follow(draw, session);
 	camera_make(&draw->camera, &ui->view, &session->body);
 	background_draw(draw, ui, session);

@@ -22,7 +22,7 @@ bool body_open(struct draw *draw, char fault[200])
 	glGenBuffers(1, &body->caster_indices);
 	body->stale = true;
 	return body->vertex && body->caster_m && body->caster_normal && body->caster_open &&
-	       body->open_next && body->index && body->open_sky &&
+	       body->open_next && body->index && body->open_sky && cover_open(&body->cover) &&
 	       surface_open(&body->program, false, false, fault);
 }
 
@@ -35,6 +35,7 @@ void body_release(struct draw *draw)
 	free(draw->body.caster_open);
 	free(draw->body.open_next);
 	free(draw->body.open_sky);
+	cover_release(&draw->body.cover);
 }
 
 /* How open a place is, from the distance field of the body alone (after Evans, "Fast Approximations
@@ -135,7 +136,6 @@ void body_upload(struct draw *draw, const struct body *body)
 		struct body_vertex *vertex = &own->vertex[draw->order.rank[i]];
 		vertex->position_m = body->position_m[i];
 		vertex->normal = body->normal[i];
-		vertex->material[0] = (uint8_t)(own->open_sky[i] * 255.0f);
 	}
 	own->index_count = 3 * body->triangle_count;
 	for (int i = 0; i < body->triangle_count; i++)
@@ -147,6 +147,7 @@ void body_upload(struct draw *draw, const struct body *body)
 		    (size_t)body->vertex_count * sizeof *own->vertex, own->vertex);
 	buffer_fill(GL_ELEMENT_ARRAY_BUFFER, own->indices,
 		    (size_t)own->index_count * sizeof *own->index, own->index);
+	cover_changed(draw, body);
 	room_floor_changed(draw, body);
 	own->hash = body->hash;
 	own->stale = false;
@@ -160,7 +161,8 @@ static void body_bind(const struct draw *draw)
 	gl_attributes(1u << AT_POSITION | 1u << AT_NORMAL | 1u << AT_MATERIAL);
 	gl_floats(AT_POSITION, 3, stride, offsetof(struct body_vertex, position_m));
 	gl_floats(AT_NORMAL, 3, stride, offsetof(struct body_vertex, normal));
-	gl_bytes(AT_MATERIAL, stride, offsetof(struct body_vertex, material));
+	glBindBuffer(GL_ARRAY_BUFFER, draw->body.cover.materials);
+	gl_bytes(AT_MATERIAL, 4, 0);
 }
 
 void body_cast(const struct draw *draw)

@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <stdlib.h>
 
-enum { WEAVE_SIZE = 256, WEAVE_YARNS = 64, GLOW_FRAMES = 30, GLOW_LEVEL = 80 };
+enum { WEAVE_SIZE = 256, WEAVE_YARNS = 64, GLOW_FRAMES = 24, GLOW_LEVEL = 100 };
 
 static const float weave_width_m = 0.096f; /* 64 yarns of 1.5 mm */
 static const float caster_cell_m = 0.026f;
@@ -53,6 +53,7 @@ bool cloth_open(struct draw *draw, char fault[200])
 	cloth->index = calloc(triangles * 3, sizeof *cloth->index);
 	cloth->normal = calloc(vertices, sizeof *cloth->normal);
 	cloth->crease = calloc(vertices, sizeof *cloth->crease);
+	cloth->soft = calloc(vertices, sizeof *cloth->soft);
 	cloth->born = calloc(vertices, sizeof *cloth->born);
 	cloth->seen_rest_m = calloc(vertices, sizeof *cloth->seen_rest_m);
 	cloth->seen_triangle = calloc(triangles, sizeof *cloth->seen_triangle);
@@ -63,8 +64,8 @@ bool cloth_open(struct draw *draw, char fault[200])
 	cloth->seam = calloc(vertices, 1);
 	cloth->caster = calloc(vertices, sizeof *cloth->caster);
 	glGenBuffers(1, &cloth->caster_indices);
-	if (!cloth->seam || !cloth->caster || !cloth->stitched || !cloth->vertex || !cloth->rest ||
-	    !cloth->index || !cloth->normal || !cloth->crease || !cloth->born ||
+	if (!cloth->soft || !cloth->seam || !cloth->caster || !cloth->stitched || !cloth->vertex ||
+	    !cloth->rest || !cloth->index || !cloth->normal || !cloth->crease || !cloth->born ||
 	    !cloth->seen_rest_m || !cloth->seen_triangle || !cloth->rim || !cloth->edge_table ||
 	    !cloth->edge_use)
 		return false;
@@ -83,6 +84,7 @@ void cloth_release(struct draw *draw)
 	free(cloth->index);
 	free(cloth->normal);
 	free(cloth->crease);
+	free(cloth->soft);
 	free(cloth->born);
 	free(cloth->seen_rest_m);
 	free(cloth->seen_triangle);
@@ -220,6 +222,8 @@ static void creases(struct draw_cloth *cloth, const struct session *session)
 	const struct v3 *x = session->cloth.position_m;
 	memset(cloth->crease, 0, (size_t)garment->vertex_count * sizeof *cloth->crease);
 	for (int t = 0; t < garment->triangle_count; t++) {
+		if (!laid(session->cloth.placed, &garment->triangle[t]))
+			continue;
 		for (int k = 0; k < 3; k++) {
 			int a = particle[garment->triangle[t].v[k]];
 			int b = particle[garment->triangle[t].v[(k + 1) % 3]];
@@ -227,6 +231,28 @@ static void creases(struct draw_cloth *cloth, const struct session *session)
 			cloth->crease[a] += v3_dot(edge, cloth->normal[a]);
 			cloth->crease[b] -= v3_dot(edge, cloth->normal[b]);
 		}
+	}
+}
+
+/* A fold is wider than a triangle: each vertex takes half of its height from its neighbours, which
+ * takes the speckle out of soft folds. */
+static void creases_soften(struct draw_cloth *cloth, const struct session *session)
+{
+	const struct garment *garment = &session->garment;
+	const int *particle = session->cloth.particle;
+	memset(cloth->soft, 0, (size_t)garment->vertex_count * sizeof *cloth->soft);
+	for (int t = 0; t < garment->triangle_count; t++) {
+		if (!laid(session->cloth.placed, &garment->triangle[t]))
+			continue;
+		const int *v = garment->triangle[t].v;
+		int a = particle[v[0]], b = particle[v[1]], c = particle[v[2]];
+		float sum = cloth->crease[a] + cloth->crease[b] + cloth->crease[c];
+		cloth->soft[a].x += sum;
+		cloth->soft[b].x += sum;
+		cloth->soft[c].x += sum;
+		cloth->soft[a].y += 3.0f;
+		cloth->soft[b].y += 3.0f;
+		cloth->soft[c].y += 3.0f;
 	}
 }
 
@@ -239,7 +265,7 @@ static float body_openness(const struct draw *draw, const struct body *body,
 	float open = (draw->body.open_sky[v[0]] + draw->body.open_sky[v[1]] +
 		      draw->body.open_sky[v[2]]) /
 		     3.0f;
-	float far = float_clamp(contact->distance_m * 8.0f, 0.0f, 1.0f);
+	float far = float_clamp(contact->distance_m * 20.0f, 0.0f, 1.0f);
 	return open + (1.0f - open) * far;
 }
 
@@ -261,15 +287,18 @@ void cloth_upload(struct draw *draw, const struct session *session)
 		return;
 	cloth_normals(&session->cloth, cloth->normal);
 	creases(cloth, session);
-	float depth_scale = 0.30f / float_max(garment->edge_m, 0.004f);
+	creases_soften(cloth, session);
+	float depth_scale = 0.36f / float_max(garment->edge_m, 0.004f);
 	for (int v = 0; v < garment->vertex_count; v++) {
 		struct cloth_vertex *vertex = &cloth->vertex[v];
 		int p = session->cloth.particle[v];
-		float valley = float_clamp(cloth->crease[p] * depth_scale, -0.35f, 0.75f);
+		float fold = cloth->soft[p].x / float_max(cloth->soft[p].y, 1.0f);
+		float valley = float_clamp(fold * depth_scale, -0.35f, 0.75f);
 		float open = body_openness(draw, &session->body, &session->cloth.contact[p]);
 		open = float_clamp(open * (0.92f - valley), 0.08f, 1.0f);
 		int age = session->frame - cloth->born[v];
-		int glow = age < GLOW_FRAMES ? GLOW_LEVEL * (GLOW_FRAMES - age) / GLOW_FRAMES : 0;
+		int left = int_clamp(GLOW_FRAMES - age, 0, GLOW_FRAMES);
+		int glow = GLOW_LEVEL * left * left / (GLOW_FRAMES * GLOW_FRAMES);
 		vertex->position_m = session->cloth.position_m[p];
 		vertex->normal = cloth->normal[v];
 		vertex->material[0] = (uint8_t)(open * 255.0f);

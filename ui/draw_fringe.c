@@ -87,11 +87,12 @@ static void fringe_show(struct draw *draw, const struct surface_program *program
 static void body_end(struct draw *draw, const struct body *body, struct fringe_vertex corner[2],
 		     int vertex)
 {
+	const struct body_cover *cover = &draw->body.cover;
 	corner[0] = (struct fringe_vertex){
 		.position_m = body->position_m[vertex],
 		.normal = body->normal[vertex],
 		.side = 1.0f,
-		.material = {(uint8_t)(draw->body.open_sky[vertex] * 255.0f)},
+		.material = {cover->material[4 * cover->drawn_as[vertex]]},
 	};
 	end_finish(corner, screen_direction(&draw->camera, body->normal[vertex]));
 }

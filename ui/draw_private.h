@@ -17,6 +17,7 @@ enum {
 	BODY_LINE_POINTS_MAX = 128,
 	HAND_POINTS_MAX = 1024,
 	EDGE_TABLE_SIZE = 1 << 16,
+	COVER_QUEUE = BODY_VERTICES_MAX, /* each vertex waits at most once */
 };
 
 /* How much deeper than it is the body is taken to be, so that cloth on it hides it. */
@@ -60,6 +61,18 @@ struct mesh_order {
 	int *rank; /* per old vertex: its new index */
 };
 
+/* How far body vertices are from cloth that lies on them; see draw_cover.c. */
+struct body_cover {
+	GLuint materials; /* openness to the sky, with cloth: 4 bytes a vertex, as drawn */
+	uint8_t *material;
+	int *drawn_as; /* per body vertex: its place in the buffers */
+	float *distance_m;
+	uint8_t *waiting; /* in the queue */
+	int *queue;       /* a ring of COVER_QUEUE */
+	int sweep;        /* of the cloth, when this was made; -1: never */
+	bool worn;
+};
+
 struct draw_body {
 	GLuint vertices, indices;
 	int index_count;
@@ -72,14 +85,14 @@ struct draw_body {
 	struct body_vertex *vertex; /* BODY_VERTICES_MAX */
 	uint16_t *index;
 	float *open_sky; /* per body vertex: 0 closed in, 1 free */
-	uint64_t hash;   /* of the body that was uploaded */
+	struct body_cover cover;
+	uint64_t hash; /* of the body that was uploaded */
 	bool stale;
 };
 
 struct body_vertex {
 	struct v3 position_m;
 	struct v3 normal;
-	uint8_t material[4]; /* openness to the sky */
 };
 
 struct cloth_fixed {
@@ -105,8 +118,9 @@ struct draw_cloth {
 	struct cloth_fixed *rest;
 	uint16_t *index;
 	struct v3 *normal;
-	float *crease; /* per vertex: > 0 in a valley */
-	int *born;     /* frame in which the vertex was laid on the body; -1: not yet */
+	float *crease;   /* per vertex: > 0 in a valley */
+	struct v2 *soft; /* per vertex: sum of the creases about it, and their count */
+	int *born;       /* frame in which the vertex was laid on the body; -1: not yet */
 	/* a copy of what was uploaded, to see changes */
 	int vertex_count, triangle_count, placed_count;
 	struct v2 *seen_rest_m;
@@ -211,6 +225,12 @@ struct ride {
 	float weight[3];
 };
 
+/* Has the wrap laid all of a triangle on the body? */
+static inline bool laid(const uint8_t *placed, const struct triangle *triangle)
+{
+	return placed[triangle->v[0]] && placed[triangle->v[1]] && placed[triangle->v[2]];
+}
+
 struct draw_marks {
 	struct marks seen;
 	struct pin seen_pin[PINS_MAX];
@@ -278,6 +298,12 @@ void room_draw(struct draw *draw);
 bool body_open(struct draw *draw, char fault[200]);
 void body_release(struct draw *draw);
 void body_upload(struct draw *draw, const struct body *body);
+/* What cloth on the body takes of its light. */
+bool cover_open(struct body_cover *cover);
+void cover_release(struct body_cover *cover);
+void cover_changed(struct draw *draw, const struct body *body);
+void cover_follow(struct draw *draw, const struct session *session);
+
 void body_cast(const struct draw *draw);
 void body_draw(struct draw *draw);
 

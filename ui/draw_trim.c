@@ -92,11 +92,22 @@ static void rims_find(struct draw_cloth *cloth, const struct session *session)
 	cloth->rims_welded = session->cloth.welded;
 }
 
+/* Thread of the cloth's own colour, lighter; white only on white. */
+static uint32_t thread_colour(const struct cloth_fixed *rest)
+{
+	uint32_t colour = 0;
+	for (int k = 0; k < 3; k++)
+		colour = colour << 8 |
+			 (uint32_t)(rest->outside[k] + (255 - rest->outside[k]) * 5 / 8);
+	return colour;
+}
+
 /* A whole number of stitches to each edge, so that the next edge goes on where this one ends. */
-static void stitches_add(struct draw *draw, struct v3 a_m, struct v3 b_m, float alpha)
+static void stitches_add(struct draw *draw, struct v3 a_m, struct v3 b_m, uint32_t colour,
+			 float alpha)
 {
 	float length_m = v3_distance(a_m, b_m);
-	struct stroke thread = {0xfffaf0, alpha, 0.8f * draw->px, DASH_STITCH, 1.0f};
+	struct stroke thread = {colour, alpha, 0.8f * draw->px, DASH_STITCH, 1.0f};
 	float stitch_px = stitch_m * draw->camera.px_per_m /
 			  float_max(v3_distance(draw->camera.eye_m, a_m), 0.1f);
 	int stitches = int_max(1, (int)(length_m / stitch_m + 0.5f));
@@ -114,23 +125,27 @@ static void rim_add(struct draw *draw, const struct rim *rim, bool welded)
 	struct v3 a_m = vertex[rim->a].position_m, b_m = vertex[rim->b].position_m;
 	struct v3 normal = v3_normalize(v3_add(vertex[rim->a].normal, vertex[rim->b].normal));
 	struct v3 to_eye = v3_sub(draw->camera.eye_m, a_m);
-	bool outside = v3_dot(normal, to_eye) > 0.0f;
+	/* Where the cloth turns away, stitches would crowd into a crawling line: they fade. */
+	float facing = v3_dot(normal, v3_normalize(to_eye));
+	float alpha = 0.75f * float_clamp((facing - 0.10f) * 3.0f, 0.0f, 1.0f);
+	uint32_t colour = thread_colour(&draw->cloth.rest[rim->a]);
 	struct v3 along = v3_normalize(v3_sub(b_m, a_m));
 	struct v3 inward = v3_sub(vertex[rim->inner].position_m, a_m);
 	inward = v3_normalize(v3_mad(inward, along, -v3_dot(inward, along)));
 	if (rim->sewn) {
 		struct stroke groove = {0x14100c, 0.20f, 0.75f * draw->px, DASH_SOLID, 1.0f};
 		ribbons_segment(draw, a_m, b_m, 0.0f, &groove);
-		if (outside && draw->cloth.stitched[rim->a] && draw->cloth.stitched[rim->b])
+		if (alpha > 0.0f && draw->cloth.stitched[rim->a] && draw->cloth.stitched[rim->b])
 			stitches_add(draw, v3_mad(a_m, inward, seam_m), v3_mad(b_m, inward, seam_m),
-				     0.55f);
+				     colour, alpha);
 		return;
 	}
 	/* The folded edge of a hem catches light on top and ends in a thin dark line. */
 	struct stroke edge = {0x1a1510, 0.42f, 0.7f * draw->px, DASH_SOLID, 1.0f};
 	ribbons_segment(draw, a_m, b_m, 0.0f, &edge);
-	if (outside && welded)
-		stitches_add(draw, v3_mad(a_m, inward, hem_m), v3_mad(b_m, inward, hem_m), 0.62f);
+	if (alpha > 0.0f && welded)
+		stitches_add(draw, v3_mad(a_m, inward, hem_m), v3_mad(b_m, inward, hem_m), colour,
+			     alpha);
 }
 
 void trim_follow(struct draw *draw, const struct session *session)
@@ -154,12 +169,34 @@ static void seam_add(struct draw *draw, const struct rim *rim, int selected)
 				&line);
 }
 
+/* While the garment grows its front glows, which also softens the teeth of its last triangles. */
+static void front_add(struct draw *draw, const struct session *session)
+{
+	const struct draw_cloth *cloth = &draw->cloth;
+	const struct triangle *triangle = session->garment.triangle;
+	struct stroke glow = {0xffd08a, 0.28f, 5.0f * draw->px, DASH_SOLID, 1.0f};
+	struct stroke core = {0xfff1d6, 0.85f, 1.6f * draw->px, DASH_SOLID, 1.0f};
+	for (int e = 0; e < cloth->edge_count; e++) {
+		const struct edge_use *edge = &cloth->edge_use[e];
+		if (edge->count < 2 ||
+		    laid(session->cloth.placed, &triangle[edge->triangle[0]]) ==
+			    laid(session->cloth.placed, &triangle[edge->triangle[1]]))
+			continue;
+		struct v3 a_m = cloth->vertex[edge->from].position_m;
+		struct v3 b_m = cloth->vertex[edge->to].position_m;
+		ribbons_segment(draw, a_m, b_m, 0.0f, &glow);
+		ribbons_segment(draw, a_m, b_m, 0.0f, &core);
+	}
+}
+
 void trim_add(struct draw *draw, const struct ui *ui, const struct session *session)
 {
 	const struct draw_cloth *cloth = &draw->cloth;
 	const uint8_t *placed = session->cloth.placed;
 	if (!cloth->index_count)
 		return;
+	if (session->job == JOB_WRAP)
+		front_add(draw, session);
 	for (int r = 0; r < cloth->rim_count; r++) {
 		const struct rim *rim = &cloth->rim[r];
 		if (placed[rim->a] && placed[rim->b] && placed[rim->inner])
