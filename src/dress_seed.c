@@ -10,7 +10,7 @@
  */
 #include "dress_private.h"
 
-enum { SMOOTHINGS = 4 };
+enum { SMOOTHINGS_MAX = 16 };
 
 static const float seed_width = 0.75f; /* of the mesh's edge length, to each side */
 static const float lengths_differ = 0.3f;
@@ -55,7 +55,8 @@ static float body_line(struct wrap *wrap, const struct body_mark *mark)
 	struct wrap_scratch *s = wrap->scratch;
 	int count = mark->point_count;
 	memcpy(s->mark_point_m, mark->point_m, (size_t)count * sizeof(struct v3));
-	for (int round = 0; round < SMOOTHINGS; round++) {
+	int rounds = int_min(count / 2, SMOOTHINGS_MAX);
+	for (int round = 0; round < rounds; round++) {
 		struct v3 before = s->mark_point_m[0];
 		for (int i = 1; i + 1 < count; i++) {
 			struct v3 here = s->mark_point_m[i];
