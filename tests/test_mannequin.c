@@ -123,8 +123,10 @@ static void check_shapes(void)
 /* Six times the signed volume of a tetrahedron. */
 static double side(struct v3 a, struct v3 b, struct v3 c, struct v3 p)
 {
-	double o[3] = {a.x, a.y, a.z}, u[3] = {b.x, b.y, b.z}, v[3] = {c.x, c.y, c.z};
-	double w[3] = {p.x, p.y, p.z};
+	double o[3] = {(double)a.x, (double)a.y, (double)a.z};
+	double u[3] = {(double)b.x, (double)b.y, (double)b.z};
+	double v[3] = {(double)c.x, (double)c.y, (double)c.z};
+	double w[3] = {(double)p.x, (double)p.y, (double)p.z};
 	for (int k = 0; k < 3; k++) {
 		u[k] -= o[k];
 		v[k] -= o[k];

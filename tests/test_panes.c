@@ -1,6 +1,7 @@
 /* The 2D layers: what is drawn bit by bit, from damage to damage, is at every moment exactly what a
  * fresh drawing would be; nothing outside of the damage changes; a still scene costs nothing. */
 #include "draw_layer.h"
+#include "leaks.h"
 #include "test.h"
 #include "text.h"
 
