@@ -23,6 +23,20 @@ test_replay() {
   report_says hash "\"$hash\""
 }
 
+# The shirt is on: no part of it in the body, the head through the collar, an arm in each sleeve.
+test_garment() {
+  report_says vertices_inside 0
+  report_says midpoints_inside 0
+  report_says centres_inside 0
+  report_says inverted_triangles 0
+  report_says edge_crossings_body 0
+  strain=$(sed -n 's/.*"strain_p95": \([0-9.e-]*\).*/\1/p' "$folder/out/report.json")
+  awk -v strain="$strain" 'BEGIN { exit !(strain != "" && strain < 0.10) }' ||
+    fail "the shirt is stretched: strain_p95 is $strain"
+  report_says head_through_collar true
+  report_says arms_in_sleeves 2
+}
+
 test_document_is_its_journal() {
   again=$("$kitsuke" dress "$folder/out/journal.kitsuke" --obj "$folder/again.obj" | hash_of)
   [ "$again" = "$hash" ] || fail "the journal makes $again, the tape $hash"
@@ -39,6 +53,7 @@ test_samples() {
 }
 
 test_replay
+test_garment
 test_document_is_its_journal
 test_samples
 finish
