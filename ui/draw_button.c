@@ -156,7 +156,7 @@ static void draw_tool(const struct brush *brush, struct rect rect, const struct 
 	if (wide) {
 		draw_icon(cr, icon[target], rect.x + 42.0 * u, rect.y + 0.5 * rect.h, 44.0 * u);
 		draw_phrase(cr, brush->type, &text_target[target], brush->language,
-			    inner(rect, (int)(80.0 * u), (int)(10.0 * u)), &label);
+			    inner(rect, (int)(76.0 * u), (int)(14.0 * u)), &label);
 	} else {
 		struct rect words = {rect.x + (int)(5.0 * u), rect.y + (int)(46.0 * u),
 				     rect.w - (int)(10.0 * u), rect.h - (int)(48.0 * u)};
@@ -220,10 +220,10 @@ static void draw_clear(const struct brush *brush, struct rect rect, const struct
 	cairo_restore(cr);
 	cairo_push_group(cr);
 	ink(cr, LOOK_INK, 1.0);
-	draw_icon(cr, ICON_AGAIN, rect.x + 38.0 * u, rect.y + 0.5 * rect.h, 36.0 * u);
+	draw_icon(cr, ICON_AGAIN, rect.x + 36.0 * u, rect.y + 0.5 * rect.h, 34.0 * u);
 	struct label label = {23.0 * u, 17.0 * u, LOOK_INK, LOOK_INK_GREY, ALIGN_LEFT};
 	draw_phrase(cr, brush->type, &text_target[TARGET_CLEAR], brush->language,
-		    inner(rect, (int)(70.0 * u), (int)(8.0 * u)), &label);
+		    inner(rect, (int)(64.0 * u), (int)(16.0 * u)), &label);
 	cairo_pop_group_to_source(cr);
 	cairo_paint_with_alpha(cr, alpha);
 }

@@ -3,7 +3,7 @@
 #include "draw_private.h"
 
 static const float mark_lift_m = 0.002f, pin_length_m = 0.024f;
-static const float ghost_beside_m = 0.78f, ghost_above_m = 0.25f;
+static const float ghost_gap_m = 0.27f, ghost_top_m = 0.78f, ghost_margin_px = 18.0f;
 
 /* ---- marks and pins that ride on the garment ---- */
 
@@ -225,12 +225,26 @@ static void pull_add(struct draw *draw, const struct ui *ui, const struct sessio
 	ribbons_line(draw, point_m, NULL, 2, 0.0f, &line);
 }
 
+/* Where the ghost's middle is: beside the legs, below the hands, and within the pane. A tall piece
+ * stands on the floor. */
+static struct v3 ghost_middle(const struct draw *draw, const struct ui *ui, struct v2 size_m)
+{
+	const struct view *view = &ui->view;
+	float px_per_m = draw->camera.px_per_m / view->distance_m;
+	float edge_m = (0.5f * (float)view->pane.w - ghost_margin_px * draw->px) / px_per_m;
+	float right_m = float_min(ghost_gap_m + float_max(size_m.x, 0.6f), edge_m);
+	float top_m = float_max(ghost_top_m, size_m.y);
+	struct v3 foot_m = {view->centre_m.x, 0.0f, view->centre_m.z};
+	struct v3 middle_m = v3_mad(foot_m, view->turn.row[0], right_m - 0.5f * size_m.x);
+	return v3_mad(middle_m, view->turn.row[1], top_m - 0.5f * size_m.y);
+}
+
 /* Step 1: the selected piece stands beside the figure at its true size, as a drawn line. */
 static void ghost_add(struct draw *draw, const struct ui *ui, const struct session *session)
 {
 	const struct pattern *pattern = &session->document.pattern;
 	struct v3 point_m[OUTLINE_POINTS_MAX + 1];
-	struct stroke line = {LOOK_INK_GREY, 0.55f, 1.3f * draw->px, DASH_PULL, 14.0f * draw->px};
+	struct stroke line = {LOOK_INK_GREY, 0.7f, 1.3f * draw->px, DASH_PULL, 14.0f * draw->px};
 	if (ui->piece < 0 || ui->piece >= PIECES_MAX || !pattern->piece[ui->piece].used)
 		return;
 	const struct piece *piece = &pattern->piece[ui->piece];
@@ -241,8 +255,8 @@ static void ghost_add(struct draw *draw, const struct ui *ui, const struct sessi
 		high = (struct v2){float_max(high.x, p.x), float_max(high.y, p.y)};
 	}
 	struct v2 middle_mm = v2_lerp(low, high, 0.5f);
-	struct v3 middle_m = v3_mad(ui->view.centre_m, ui->view.turn.row[0], ghost_beside_m);
-	middle_m.y += ghost_above_m;
+	struct v2 size_m = v2_scale(v2_sub(high, low), 0.001f);
+	struct v3 middle_m = ghost_middle(draw, ui, size_m);
 	for (int i = 0; i <= piece->point_count; i++) {
 		struct v2 p = v2_sub(piece->point_mm[i % piece->point_count], middle_mm);
 		point_m[i] = v3_mad(v3_mad(middle_m, ui->view.turn.row[0], 0.001f * p.x),

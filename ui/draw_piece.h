@@ -45,6 +45,7 @@ void draw_edge_glow(const struct easel *easel, struct edge_ref edge, uint32_t co
 /* Threads from edge to edge: which points will meet. */
 void draw_zip(const struct easel *easel, struct edge_ref a, struct edge_ref b, bool swapped,
 	      double alpha);
+void draw_threads(const struct easel *easel); /* from letter to letter */
 void draw_seams(const struct easel *easel);
 void draw_pins(const struct easel *easel);
 

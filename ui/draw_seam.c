@@ -57,10 +57,10 @@ static struct v2 edge_px(const struct easel *easel, struct edge_ref edge, float 
 void draw_zip(const struct easel *easel, struct edge_ref a, struct edge_ref b, bool swapped,
 	      double alpha)
 {
-	enum { THREADS = 9 };
+	enum { THREADS = 7 };
 	cairo_t *cr = easel->cr;
 	cairo_set_line_width(cr, 2.0 * easel->unit);
-	ink(cr, LOOK_WRAP, 0.55 * alpha);
+	ink(cr, LOOK_WRAP, 0.42 * alpha);
 	for (int i = 0; i < THREADS; i++) {
 		float t = (float)i / (float)(THREADS - 1);
 		move_to(cr, edge_px(easel, a, t));
@@ -112,14 +112,14 @@ static void draw_stitches(const struct easel *easel, struct edge_ref edge)
 	path_edge(easel, edge, 7.0 * u);
 	cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
 	cairo_set_dash(cr, dash, 2, 0.0);
-	cairo_set_line_width(cr, 2.4 * u);
-	ink(cr, 0xffffff, 0.85);
+	cairo_set_line_width(cr, 2.0 * u);
+	ink(cr, 0xffffff, 0.72);
 	cairo_stroke(cr);
 	cairo_set_dash(cr, NULL, 0, 0.0);
 }
 
 /* A dotted thread that leaves both edges straight outwards. */
-static void draw_thread(const struct easel *easel, const struct seam *seam, bool selected)
+static void draw_thread(const struct easel *easel, const struct seam *seam)
 {
 	cairo_t *cr = easel->cr;
 	double u = easel->unit, dots[2] = {0.01, 8.5 * u};
@@ -139,10 +139,20 @@ static void draw_thread(const struct easel *easel, const struct seam *seam, bool
 		       (double)control[1].y, (double)end[1].x, (double)end[1].y);
 	cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
 	cairo_set_dash(cr, dots, 2, 0.0);
-	cairo_set_line_width(cr, (selected ? 4.0 : 3.0) * u);
-	ink(cr, selected ? LOOK_WRAP : 0x8c8375, 1.0);
+	cairo_set_line_width(cr, 3.0 * u);
+	ink(cr, 0x8c8375, 1.0);
 	cairo_stroke(cr);
 	cairo_set_dash(cr, NULL, 0, 0.0);
+}
+
+/* Under the pieces, so that a thread to the far side of another piece doesn't cross its cloth. */
+void draw_threads(const struct easel *easel)
+{
+	const struct ui *ui = easel->ui;
+	const struct pattern *pattern = &easel->session->document.pattern;
+	for (int s = 0; ui->step <= STEP_SEW && s < SEAMS_MAX; s++)
+		if (pattern->seam[s].used && !(ui->step == STEP_SEW && s == ui->seam))
+			draw_thread(easel, &pattern->seam[s]);
 }
 
 static void draw_letter(const struct easel *easel, int s, int side, bool selected)
@@ -184,8 +194,6 @@ void draw_seams(const struct easel *easel)
 			draw_way(easel, seam->a, false);
 			draw_way(easel, seam->b, !seam->swapped);
 		}
-		if (early && !selected)
-			draw_thread(easel, seam, selected);
 	}
 	for (int s = 0; early && s < SEAMS_MAX; s++)
 		for (int side = 0; pattern->seam[s].used && side < 2; side++)

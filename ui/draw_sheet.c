@@ -79,6 +79,8 @@ static void draw_still(const struct sheet *sheet, const struct easel *screen, st
 	clip_to(easel.cr, area);
 	cairo_set_source_surface(easel.cr, sheet->paper.surface, 0.0, 0.0);
 	cairo_paint(easel.cr);
+	if (moving_piece(easel.ui) < 0)
+		draw_threads(&easel);
 	uint32_t done = 0;
 	for (int n = 0; n < PIECES_MAX; n++) {
 		int lowest = -1;
