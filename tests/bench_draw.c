@@ -57,10 +57,10 @@ static void frame_in_parts(struct bench *bench)
 	trim_follow(draw, session);
 	camera_make(&draw->camera, &ui->view, &session->body);
 	lap(bench, 0, "cloth upload");
-	background_draw(draw, ui, session);
-	lap(bench, 1, "background");
 	shadow_draw(draw);
-	lap(bench, 2, "shadow map");
+	lap(bench, 1, "shadow map");
+	background_draw(draw, ui, session);
+	lap(bench, 2, "background");
 	pane_enter(draw, &ui->view.pane);
 	room_draw(draw);
 	lap(bench, 3, "floor");

@@ -2,6 +2,7 @@
  * every call of ours to the heap counted. The linker sends those calls here (Makefile, --wrap);
  * Mesa, cairo and Pango keep their own. */
 #include "kiosk.h"
+#include "leaks.h"
 #include "snapshot.h"
 #include "tape.h"
 #include "test.h"

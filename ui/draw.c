@@ -125,11 +125,12 @@ void pane_enter(const struct draw *draw, const struct rect *pane)
 	int bottom = draw->height - pane->y - pane->h;
 	glViewport(pane->x, bottom, pane->w, pane->h);
 	glScissor(pane->x, bottom, pane->w, pane->h);
-	glEnable(GL_SCISSOR_TEST);
 	glEnable(GL_DEPTH_TEST);
 	glDepthFunc(GL_LEQUAL);
 	glDepthMask(GL_TRUE);
+	glDisable(GL_SCISSOR_TEST); /* all of it: a cut-out would be drawn as a quad */
 	glClear(GL_DEPTH_BUFFER_BIT);
+	glEnable(GL_SCISSOR_TEST);
 }
 
 /* Everything opaque that was made on the processor, before the first triangle. */
@@ -196,8 +197,8 @@ void draw_frame(struct draw *draw, const struct ui *ui, const struct session *se
 	cover_follow(draw, session);
 	trim_follow(draw, session);
 	camera_make(&draw->camera, &ui->view, &session->body);
-	background_draw(draw, ui, session);
 	shadow_draw(draw);
+	background_draw(draw, ui, session);
 	figure_draw(draw, ui, session);
 	lines_draw(draw, ui, session);
 	overlays_draw(draw);

@@ -214,9 +214,10 @@ struct plate {
 struct room {
 	struct plate backdrop;
 	GLuint floor, quad, program, floor_program;
-	GLint place, cut, floor_clip, floor_half;
+	GLint place, cut, floor_clip, floor_half, floor_cut;
 	uint8_t *pixels; /* the backdrop */
 	float floor_half_m;
+	float floor_part[4]; /* low corner and size of what is shaded, of a floor 1 x 1 */
 };
 
 /* A place on the garment that rides with it. */

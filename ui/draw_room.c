@@ -19,12 +19,13 @@ static const char quad_fragment_source[] =
 	"varying vec2 v_place;\n"
 	"void main() { FRAG = texture2D(u_texture, v_place); }\n";
 static const char floor_vertex_source[] = "uniform mat4 u_clip;\n"
+					  "uniform vec4 u_cut;\n" /* scale, shift */
 					  "uniform float u_half;\n"
 					  "attribute vec2 a_place;\n"
 					  "varying vec2 v_place;\n"
 					  "void main() {\n"
-					  "  vec2 at = (a_place * 2.0 - 1.0) * u_half;\n"
-					  "  v_place = a_place;\n"
+					  "  v_place = a_place * u_cut.xy + u_cut.zw;\n"
+					  "  vec2 at = (v_place * 2.0 - 1.0) * u_half;\n"
 					  "  gl_Position = u_clip * vec4(at.x, 0.0, at.y, 1.0);\n"
 					  "}\n";
 static const char floor_fragment_source[] =
@@ -48,6 +49,7 @@ bool room_open(struct draw *draw, char fault[200])
 	room->cut = glGetUniformLocation(room->program, "u_cut");
 	room->floor_clip = glGetUniformLocation(room->floor_program, "u_clip");
 	room->floor_half = glGetUniformLocation(room->floor_program, "u_half");
+	room->floor_cut = glGetUniformLocation(room->floor_program, "u_cut");
 	glGenBuffers(1, &room->quad);
 	glBindBuffer(GL_ARRAY_BUFFER, room->quad);
 	glBufferData(GL_ARRAY_BUFFER, sizeof square, square, GL_STATIC_DRAW);
@@ -93,6 +95,25 @@ static void backdrop_make(struct room *room, int width, int height)
 	}
 }
 
+/* The part of the floor that is shaded at all, with the texel beside it that filtering reaches. */
+static void floor_bound(struct room *room, uint8_t shade[FLOOR_SIZE][FLOOR_SIZE])
+{
+	int low[2] = {FLOOR_SIZE, FLOOR_SIZE}, high[2] = {0, 0};
+	for (int z = 0; z < FLOOR_SIZE; z++)
+		for (int x = 0; x < FLOOR_SIZE; x++) {
+			if (!shade[z][x])
+				continue;
+			low[0] = int_min(low[0], int_max(x - 1, 0));
+			low[1] = int_min(low[1], int_max(z - 1, 0));
+			high[0] = int_max(high[0], int_min(x + 2, FLOOR_SIZE));
+			high[1] = int_max(high[1], int_min(z + 2, FLOOR_SIZE));
+		}
+	for (int k = 0; k < 2; k++) {
+		room->floor_part[k] = (float)low[k] / (float)FLOOR_SIZE;
+		room->floor_part[2 + k] = (float)int_max(high[k] - low[k], 0) / (float)FLOOR_SIZE;
+	}
+}
+
 /* The shadow under the feet: every body vertex near the floor darkens the texels below it, the
  * lower the darker and the narrower; higher ones (up to the knee) only tint. */
 void room_floor_changed(struct draw *draw, const struct body *body)
@@ -130,6 +151,7 @@ void room_floor_changed(struct draw *draw, const struct body *body)
 			shade[z][x] = (uint8_t)(165.0f * s / (1.0f + s));
 		}
 	room->floor_half_m = half_m;
+	floor_bound(room, shade);
 	glBindTexture(GL_TEXTURE_2D, room->floor);
 	glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
 	glTexImage2D(GL_TEXTURE_2D, 0, GL_LUMINANCE, FLOOR_SIZE, FLOOR_SIZE, 0, GL_LUMINANCE,
@@ -166,6 +188,8 @@ void room_draw(struct draw *draw)
 	glUseProgram(room->floor_program);
 	glUniformMatrix4fv(room->floor_clip, 1, GL_FALSE, draw->camera.world_to_clip);
 	glUniform1f(room->floor_half, room->floor_half_m);
+	glUniform4f(room->floor_cut, room->floor_part[2], room->floor_part[3], room->floor_part[0],
+		    room->floor_part[1]);
 	glBindTexture(GL_TEXTURE_2D, room->floor);
 	glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 	glDisable(GL_BLEND);

@@ -47,8 +47,11 @@ void shadow_draw(struct draw *draw)
 	glPolygonOffset(2.0f, 160.0f);
 	glUseProgram(shadow->program);
 	glUniformMatrix4fv(shadow->clip, 1, GL_FALSE, draw->camera.world_to_light);
-	if (draw->body.index_count)
+	if (draw->body.index_count) { /* its far side lies behind the near one */
+		glEnable(GL_CULL_FACE);
 		body_cast(draw);
+		glDisable(GL_CULL_FACE);
+	}
 	if (draw->cloth.index_count)
 		cloth_cast(draw);
 	glDisable(GL_POLYGON_OFFSET_FILL);
