@@ -288,12 +288,12 @@ void cloth_upload(struct draw *draw, const struct session *session)
 	cloth_normals(&session->cloth, cloth->normal);
 	creases(cloth, session);
 	creases_soften(cloth, session);
-	float depth_scale = 0.36f / float_max(garment->edge_m, 0.004f);
+	float depth_scale = 0.32f / float_max(garment->edge_m, 0.004f);
 	for (int v = 0; v < garment->vertex_count; v++) {
 		struct cloth_vertex *vertex = &cloth->vertex[v];
 		int p = session->cloth.particle[v];
 		float fold = cloth->soft[p].x / float_max(cloth->soft[p].y, 1.0f);
-		float valley = float_clamp(fold * depth_scale, -0.35f, 0.75f);
+		float valley = float_clamp(fold * depth_scale, -0.35f, 0.52f);
 		float open = body_openness(draw, &session->body, &session->cloth.contact[p]);
 		open = float_clamp(open * (0.92f - valley), 0.08f, 1.0f);
 		int age = session->frame - cloth->born[v];

@@ -2,7 +2,7 @@
  */
 #include "draw_private.h"
 
-static const float mark_lift_m = 0.002f, pin_length_m = 0.024f;
+static const float mark_lift_m = 0.002f, pin_length_m = 0.040f;
 static const float ghost_gap_m = 0.27f, ghost_top_m = 0.78f, ghost_margin_px = 18.0f;
 
 /* ---- marks and pins that ride on the garment ---- */
@@ -135,14 +135,14 @@ static bool partner_worn(const struct draw *draw, const struct session *session,
 static void pins_add(struct draw *draw, const struct session *session)
 {
 	struct stroke shadow = {0x2b2018, 0.30f, 2.2f * draw->px, DASH_SOLID, 1.0f};
-	struct stroke steel = {0x8d8a86, 1.0f, 1.3f * draw->px, DASH_SOLID, 1.0f};
+	struct stroke steel = {0x6d5a66, 1.0f, 1.5f * draw->px, DASH_SOLID, 1.0f};
 	for (int i = 0; i < PINS_MAX; i++) {
 		struct v3 point_m, normal;
 		if (!session->document.pin[i].used ||
 		    !ride_point(draw, session, &draw->marks.pin[i], &point_m, &normal))
 			continue;
-		/* Pins lean up a little, as a hand would put them. */
-		struct v3 lean = v3_normalize((struct v3){normal.x, normal.y + 0.5f, normal.z});
+		/* Pins are put in from above and lie flat: their steel shows from the front. */
+		struct v3 lean = v3_normalize((struct v3){normal.x, normal.y + 1.7f, normal.z});
 		struct v3 head_m = v3_mad(point_m, lean, pin_length_m);
 		ribbons_segment(draw, point_m, v3_mad(point_m, normal, 0.004f), 0.0f, &shadow);
 		ribbons_segment(draw, point_m, head_m, 0.0f, &steel);

@@ -133,7 +133,9 @@ static void rim_add(struct draw *draw, const struct rim *rim, bool welded)
 	struct v3 inward = v3_sub(vertex[rim->inner].position_m, a_m);
 	inward = v3_normalize(v3_mad(inward, along, -v3_dot(inward, along)));
 	if (rim->sewn) {
-		struct stroke groove = {0x14100c, 0.20f, 0.75f * draw->px, DASH_SOLID, 1.0f};
+		float shown = float_clamp(float_abs(facing) * 3.0f, 0.0f, 1.0f);
+		struct stroke groove = {0x14100c, 0.20f * shown, 0.75f * draw->px, DASH_SOLID,
+					1.0f};
 		ribbons_segment(draw, a_m, b_m, 0.0f, &groove);
 		if (alpha > 0.0f && draw->cloth.stitched[rim->a] && draw->cloth.stitched[rim->b])
 			stitches_add(draw, v3_mad(a_m, inward, seam_m), v3_mad(b_m, inward, seam_m),
