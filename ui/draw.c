@@ -71,6 +71,7 @@ struct draw *draw_open(int width, int height, char fault[200])
 	draw->height = height;
 	draw->px = float_max((float)height / 1080.0f, 0.5f);
 	draw->marks.stale = true;
+	draw->software = gl_software();
 	glGetIntegerv(GL_FRAMEBUFFER_BINDING, &draw->target);
 	draw->rows = malloc((size_t)width * (size_t)height * 4);
 	if (!draw->rows || !parts_open(draw, fault)) {
@@ -148,12 +149,21 @@ void background_draw(struct draw *draw, const struct ui *ui, const struct sessio
 	layer_draw(draw, &draw->chrome_plate, draw->chrome_layer, true);
 }
 
+/* Where processors draw, they fill body and cloth while this one works out the outlines. A GPU of
+ * tiles would only have to fetch its tiles again. */
+static void surfaces_finish(const struct draw *draw)
+{
+	if (draw->software)
+		glFlush();
+}
+
 static void figure_draw(struct draw *draw, const struct ui *ui, const struct session *session)
 {
 	pane_enter(draw, &ui->view.pane);
 	room_draw(draw);
 	body_draw(draw);
 	cloth_draw(draw);
+	surfaces_finish(draw);
 	fringe_body_draw(draw, &session->body);
 	fringe_cloth_draw(draw, session);
 }

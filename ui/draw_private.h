@@ -265,6 +265,7 @@ struct draw {
 	uint8_t *rows; /* a screenful, on its way up */
 	float px;      /* one pixel of the look's drawing (1080 lines) on this screen */
 	bool bones;
+	bool software; /* processors do the GPU's work */
 };
 
 void camera_make(struct camera *camera, const struct view *view, const struct body *body);
