@@ -4,6 +4,7 @@
 # make bench        microseconds and work units per stage of a frame (tests/bench_frame.c), and of parts
 # make fuzz         every fuzzer for FUZZ_SECONDS (10) each
 # make hash-matrix  the bundled tape's hash over compilers, levels, sanitizers and aarch64
+# make tremor       the bundled tape with 20 trembling hands
 # make format       clang-format everything; format-check only looks
 # make clean        remove build/
 #
@@ -158,6 +159,9 @@ fuzzers: $(FUZZ)
 hash-matrix:
 	@MAKE='$(MAKE)' JOBS='$(JOBS)' tests/check-hash.sh $(build)/hash
 
+tremor: $(B)/kitsuke
+	@KITSUKE=$(B)/kitsuke tests/check-tremor.sh
+
 format:
 	$(CLANG_FORMAT) -i $(wildcard */*.[ch])
 
@@ -170,7 +174,7 @@ help:
 clean:
 	rm -rf $(build)
 
-.PHONY: all run check tests programs check-layers check-imports bench bench-peer fuzz fuzzers hash-matrix format \
+.PHONY: all run check tests programs check-layers check-imports bench bench-peer fuzz fuzzers hash-matrix tremor format \
         format-check help clean
 .SECONDARY:
 -include $(patsubst %.c,$(B)/%.d,$(ALL))
