@@ -15,6 +15,8 @@ struct wrap_scratch {
 	bool disagree; /* the marks were found to pull seams apart */
 	int rounds;    /* folds turned back so far */
 	struct v3 mark_point_m[MARK_POINTS_MAX], mark_normal[MARK_POINTS_MAX];
+	struct v3 cloth_line_m[MARK_POINTS_MAX]; /* the cloth's line, flat: z = 0 */
+	struct v3 drawn[MARK_POINTS_MAX];
 };
 
 /* Puts the triangles under the marks on the body (dress_seed.c). Returns the vertices seeded. */
@@ -29,6 +31,10 @@ void wrap_mark_error(struct wrap *wrap);
 /* Readies growth, then places one ring of vertices; returns how many (dress_grow.c). */
 void wrap_grow_init(struct wrap *wrap);
 int wrap_grow_ring(struct wrap *wrap);
+
+/* A line of `count` points drawn by hand, steadied, into `steady` (not the same array). length_m 0:
+ * measured on the line itself. */
+void wrap_steady_line(const struct v3 *point, int count, float length_m, struct v3 *steady);
 
 /* Adds a diagnosis; `text` may hold %1 and %2 for the marks' numbers. Full: it is dropped. */
 void wrap_diagnose(struct wrap *wrap, const char *kind, int mark_1, int mark_2, const char *text);

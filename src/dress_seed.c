@@ -10,8 +10,6 @@
  */
 #include "dress_private.h"
 
-enum { SMOOTHINGS_MAX = 16 };
-
 static const float seed_width = 0.75f; /* of the mesh's edge length, to each side */
 static const float lengths_differ = 0.3f;
 
@@ -49,33 +47,37 @@ static const struct body_mark *partner(const struct marks *marks, int number)
 	return NULL;
 }
 
-/* The body's line without the hand's tremor: smoothed and laid back onto the surface. */
+/* The body's line without the hand's tremor: steadied and laid back onto the surface. */
 static float body_line(struct wrap *wrap, const struct body_mark *mark)
 {
 	struct wrap_scratch *s = wrap->scratch;
 	int count = mark->point_count;
-	memcpy(s->mark_point_m, mark->point_m, (size_t)count * sizeof(struct v3));
-	int rounds = int_min(count / 2, SMOOTHINGS_MAX);
-	for (int round = 0; round < rounds; round++) {
-		struct v3 before = s->mark_point_m[0];
-		for (int i = 1; i + 1 < count; i++) {
-			struct v3 here = s->mark_point_m[i];
-			struct v3 mean = v3_lerp(before, s->mark_point_m[i + 1], 0.5f);
-			s->mark_point_m[i] = v3_lerp(here, mean, 0.5f);
-			before = here;
-		}
-	}
-	s->along_m[0] = 0.0f;
+	wrap_steady_line(mark->point_m, count, 0.0f, s->mark_point_m);
 	for (int i = 0; i < count; i++) {
 		struct body_hit hit;
 		body_nearest(wrap->cloth->body, s->mark_point_m[i], 0, &hit);
+		s->drawn[i] = hit.normal;
 		s->mark_point_m[i] = hit.point_m;
-		s->mark_normal[i] = hit.normal;
-		if (i > 0)
-			s->along_m[i] = s->along_m[i - 1] +
-					v3_distance(s->mark_point_m[i - 1], s->mark_point_m[i]);
+		s->along_m[i] = i == 0 ? 0.0f
+				       : s->along_m[i - 1] +
+						 v3_distance(s->mark_point_m[i - 1], hit.point_m);
 	}
+	wrap_steady_line(s->drawn, count, s->along_m[count - 1], s->mark_normal);
 	return s->along_m[count - 1];
+}
+
+/* The cloth's line, likewise. */
+static float cloth_line(struct wrap *wrap, const struct cloth_mark *mark)
+{
+	struct wrap_scratch *s = wrap->scratch;
+	float length = 0.0f;
+	for (int i = 0; i < mark->point_count; i++)
+		s->drawn[i] = (struct v3){0.001f * mark->point_mm[i].x,
+					  0.001f * mark->point_mm[i].y, 0.0f};
+	wrap_steady_line(s->drawn, mark->point_count, 0.0f, s->cloth_line_m);
+	for (int i = 1; i < mark->point_count; i++)
+		length += v3_distance(s->cloth_line_m[i - 1], s->cloth_line_m[i]);
+	return length;
 }
 
 /* The place on the body that belongs to arc length and lateral distance on the cloth; beyond the
@@ -96,23 +98,15 @@ static struct v3 place_on_body(const struct wrap *wrap, int count, float along_m
 	return v3_mad(place, normal, wrap->cloth->settings.offset_m);
 }
 
-static float line_length_m(const struct cloth_mark *mark)
-{
-	float length = 0.0f;
-	for (int i = 1; i < mark->point_count; i++)
-		length += v2_distance(mark->point_mm[i - 1], mark->point_mm[i]) * 0.001f;
-	return length;
-}
-
 /* Nearest point of the cloth's line: arc length and signed distance (left is positive). */
-static float nearest_on_line(const struct cloth_mark *mark, struct v2 p_m, float *along_m,
+static float nearest_on_line(const struct v3 *line_m, int count, struct v2 p_m, float *along_m,
 			     float *lateral_m)
 {
 	float best = 1e9f, before = 0.0f;
 	*along_m = *lateral_m = 0.0f;
-	for (int i = 0; i + 1 < mark->point_count; i++) {
-		struct v2 a = v2_scale(mark->point_mm[i], 0.001f);
-		struct v2 step = v2_sub(v2_scale(mark->point_mm[i + 1], 0.001f), a);
+	for (int i = 0; i + 1 < count; i++) {
+		struct v2 a = {line_m[i].x, line_m[i].y};
+		struct v2 step = {line_m[i + 1].x - a.x, line_m[i + 1].y - a.y};
 		float length = float_max(v2_length(step), 1e-6f);
 		struct v2 u = v2_scale(step, 1.0f / length), w = v2_sub(p_m, a);
 		float t = float_clamp(v2_dot(w, u), 0.0f, length);
@@ -131,7 +125,7 @@ static int seed_mark(struct wrap *wrap, const struct cloth_mark *mark, const str
 {
 	struct cloth *cloth = wrap->cloth;
 	const struct garment *garment = cloth->garment;
-	float body_m = body_line(wrap, on), cloth_m = line_length_m(mark);
+	float body_m = body_line(wrap, on), cloth_m = cloth_line(wrap, mark);
 	float width = seed_width * garment->edge_m;
 	int seeds = 0;
 	if (float_abs(body_m - cloth_m) > lengths_differ * float_max(body_m, cloth_m))
@@ -142,7 +136,8 @@ static int seed_mark(struct wrap *wrap, const struct cloth_mark *mark, const str
 	for (int v = garment->piece_first[mark->piece]; v < garment->piece_first[mark->piece + 1];
 	     v++) {
 		float along_m, lateral_m;
-		if (nearest_on_line(mark, garment->rest_m[v], &along_m, &lateral_m) > width ||
+		if (nearest_on_line(wrap->scratch->cloth_line_m, mark->point_count,
+				    garment->rest_m[v], &along_m, &lateral_m) > width ||
 		    along_m > body_m + width)
 			continue;
 		cloth->goal_m[v] = place_on_body(wrap, on->point_count, along_m, lateral_m);

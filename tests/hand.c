@@ -17,10 +17,10 @@ static const float DRAWING_SPEED = 220.0f; /* pixels a second: with care, as out
  * the other half. Straight runs, but for the neckline. */
 static const struct v2 half_shirt_mm[] = {
 	{82.0f, 0.0f},     /* neck side */
-	{420.0f, -237.0f}, /* sleeve end, above */
-	{322.0f, -374.0f}, /* sleeve end, below */
-	{242.0f, -313.0f}, /* underarm */
-	{250.0f, -670.0f}, /* hem */
+	{426.0f, -264.0f}, /* sleeve end, above */
+	{318.0f, -404.0f}, /* sleeve end, below */
+	{242.0f, -344.0f}, /* underarm */
+	{250.0f, -680.0f}, /* hem */
 };
 
 struct path {
@@ -143,7 +143,7 @@ static void mark_cloth(struct hand *hand, int at, struct v2 from_mm, struct v2 t
 	struct v2 origin = {hem.x, hem.y + half_shirt_mm[4].y * scale};
 	struct v2 path[2] = {{origin.x + turn * from_mm.x * scale, origin.y - from_mm.y * scale},
 			     {origin.x + turn * to_mm.x * scale, origin.y - to_mm.y * scale}};
-	hand_stroke(hand, path, 2, 350.0f);
+	hand_stroke(hand, path, 2, 200.0f);
 	hand_wait(hand, 0.15f);
 }
 
@@ -163,7 +163,7 @@ static void mark_body(struct hand *hand, struct v2 from_m, struct v2 to_m)
 		    view_project(&hand->kiosk->ui.view, hit.point_m, &px, &depth))
 			path_add(&path, px);
 	}
-	hand_stroke(hand, path.point, path.count, 250.0f);
+	hand_stroke(hand, path.point, path.count, 180.0f);
 	hand_wait(hand, 0.15f);
 }
 
@@ -259,10 +259,10 @@ static void visit(struct hand *hand)
 
 	hand_tap_target(hand, TARGET_STEP_MARK);
 	hand_tap_target(hand, TARGET_LASER);
-	mark_body(hand, (struct v2){0.0f, 1.33f}, (struct v2){0.0f, 0.93f});
+	mark_body(hand, (struct v2){0.0f, 1.32f}, (struct v2){0.0f, 0.90f});
 	hand_tap_target(hand, TARGET_LASER);
-	mark_cloth(hand, FRONT, (struct v2){0.0f, -130.0f}, (struct v2){0.0f, -530.0f});
-	mark_cloth(hand, BACK, (struct v2){0.0f, -130.0f}, (struct v2){0.0f, -530.0f});
+	mark_cloth(hand, FRONT, (struct v2){0.0f, -140.0f}, (struct v2){0.0f, -560.0f});
+	mark_cloth(hand, BACK, (struct v2){0.0f, -140.0f}, (struct v2){0.0f, -560.0f});
 	say(hand, "marked");
 
 	hand_button(hand, BUTTON_WRAP, 0.1f);
@@ -276,9 +276,9 @@ static void visit(struct hand *hand)
 	hand_wait(hand, 0.5f);
 	say(hand, "hem pulled");
 
-	pin_at(hand, (struct v2){190.0f, -100.0f});
-	pin_at(hand, (struct v2){205.0f, -215.0f});
-	pull(hand, (struct v2){366.0f, -296.0f}, (struct v2){-16.0f, -24.0f});
+	pin_at(hand, (struct v2){190.0f, -115.0f});
+	pin_at(hand, (struct v2){200.0f, -240.0f});
+	pull(hand, (struct v2){362.0f, -340.0f}, (struct v2){-16.0f, -24.0f});
 	hand_wait(hand, 0.5f);
 	say(hand, "sleeve rolled");
 
