@@ -17,7 +17,7 @@ enum {
 
 static const float gap_late_m = 0.02f;   /* seams wider than this need more closing */
 static const float gap_held_m = 0.12f;   /* no agreeing marks hold a seam so wide */
-static const float gap_agrees_m = 0.06f; /* seams wider than this before the weld: marks disagree */
+static const float gap_agrees_m = 0.06f; /* wider than this before the weld: not to be sewn */
 
 void wrap_init(struct wrap *wrap, struct arena *arena)
 {
@@ -184,7 +184,7 @@ static void end_close(struct wrap *wrap)
 	struct cloth *cloth = wrap->cloth;
 	int wide, count = count_pairs(cloth, -1, gap_agrees_m, &wide);
 	if (!wrap->scratch->disagree)
-		diagnose_gaps(wrap, gap_agrees_m);
+		diagnose_gaps(wrap, gap_held_m);
 	if (3 * wide <= count) {
 		cloth_weld(cloth);
 		enter(wrap, WRAP_WELD, closing());
