@@ -6,7 +6,7 @@
 #define LIMITS_H
 
 /* One block for everything but the C library, GL and the window system. */
-#define KIOSK_MEMORY_BYTES ((size_t)192 << 20)
+#define KIOSK_MEMORY_BYTES ((size_t)64 << 20)
 
 enum {
 	FRAME_RATE_HZ = 60, /* frames are the only clock inside the program */

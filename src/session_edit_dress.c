@@ -13,6 +13,30 @@ static int thinned(int i, int kept, int count)
 	return kept == count ? i : i * (count - 1) / (kept - 1);
 }
 
+static bool mark_used(const struct marks *marks, int side, int place)
+{
+	return side == 0 ? marks->cloth[place].used : marks->body[place].used;
+}
+
+static int mark_number(const struct marks *marks, int side, int place)
+{
+	return side == 0 ? marks->cloth[place].number : marks->body[place].number;
+}
+
+/* Where a mark with that number stands on a side (0 cloth, 1 body), or else a free place; -1: none.
+ */
+static int mark_place(const struct marks *marks, int side, int number)
+{
+	int place = -1;
+	for (int m = MARKS_MAX - 1; m >= 0; m--)
+		if (!mark_used(marks, side, m))
+			place = m;
+	for (int m = 0; m < MARKS_MAX; m++)
+		if (mark_used(marks, side, m) && mark_number(marks, side, m) == number)
+			place = m;
+	return place;
+}
+
 /* A number drawn again replaces the old line. */
 static const char *mark_cloth(struct session *session, const struct edit *edit)
 {
@@ -23,16 +47,11 @@ static const char *mark_cloth(struct session *session, const struct edit *edit)
 		return "there is no such piece";
 	if (edit->point_count < 2)
 		return "a mark is a line of at least two points";
-	struct cloth_mark *mark = NULL;
-	for (int pass = 0; pass < 2 && !mark; pass++)
-		for (int m = 0; m < MARKS_MAX && !mark; m++) {
-			struct cloth_mark *at = &session->document.marks.cloth[m];
-			if (pass == 0 ? at->used && at->number == number : !at->used)
-				mark = at;
-		}
-	if (!mark)
+	int place = mark_place(&session->document.marks, 0, number);
+	if (place < 0)
 		return "there are as many marks as fit; erase one first";
 	undo_keep(session);
+	struct cloth_mark *mark = &session->document.marks.cloth[place];
 	mark->used = true;
 	mark->number = number;
 	mark->piece = piece;
@@ -53,16 +72,11 @@ static const char *mark_body(struct session *session, const struct edit *edit)
 		return "a mark is a line of at least two points";
 	if (session->body.triangle_count == 0)
 		return "there is no body to draw on";
-	struct body_mark *mark = NULL;
-	for (int pass = 0; pass < 2 && !mark; pass++)
-		for (int m = 0; m < MARKS_MAX && !mark; m++) {
-			struct body_mark *at = &session->document.marks.body[m];
-			if (pass == 0 ? at->used && at->number == number : !at->used)
-				mark = at;
-		}
-	if (!mark)
+	int place = mark_place(&session->document.marks, 1, number);
+	if (place < 0)
 		return "there are as many marks as fit; erase one first";
 	undo_keep(session);
+	struct body_mark *mark = &session->document.marks.body[place];
 	mark->used = true;
 	mark->number = number;
 	mark->point_count = int_min(edit->point_count, MARK_POINTS_MAX);
@@ -79,16 +93,15 @@ static const char *mark_body(struct session *session, const struct edit *edit)
 static const char *unmark(struct session *session, const struct edit *edit)
 {
 	struct marks *marks = &session->document.marks;
-	for (int m = 0; m < MARKS_MAX; m++) {
-		bool *used = edit->i[0] == 0 ? &marks->cloth[m].used : &marks->body[m].used;
-		int number = edit->i[0] == 0 ? marks->cloth[m].number : marks->body[m].number;
-		if (!*used || number != edit->i[1])
-			continue;
-		undo_keep(session);
-		*used = false;
-		return NULL;
-	}
-	return "there is no mark with that number";
+	int side = edit->i[0] != 0, place = mark_place(marks, side, edit->i[1]);
+	if (place < 0 || !mark_used(marks, side, place))
+		return "there is no mark with that number";
+	undo_keep(session);
+	if (side == 0)
+		marks->cloth[place].used = false;
+	else
+		marks->body[place].used = false;
+	return NULL;
 }
 
 /* Is there a number on both sides? */
