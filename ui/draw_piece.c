@@ -278,7 +278,12 @@ void draw_name(const struct easel *easel, int p, struct v2 shift_mm)
 	bool free = below.y - hem.y > 16.0f * u &&
 		    !words_place(easel, p, below, width, shift_mm).crowded;
 	struct v2 at = below;
-	if (!free && words_place(easel, p, above, width, shift_mm).inside) {
+	float fitting = 1.0f; /* a long name on a narrow piece is set smaller, down to this */
+	while (!free && fitting > 0.7f &&
+	       !words_place(easel, p, above, fitting * width, shift_mm).inside)
+		fitting -= 0.05f;
+	if (!free && fitting > 0.7f) {
+		style.size_px = (double)(fitting * size);
 		uint32_t cloth = (piece->inside_up ? look_inside
 						   : look_outside)[piece->swatch & (SWATCHES - 1)];
 		style.colour = (cloth >> 8 & 255) < 0x70 ? 0xf6f2ea : LOOK_INK;
