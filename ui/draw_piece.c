@@ -196,8 +196,8 @@ static void draw_mark(const struct easel *easel, const struct cloth_mark *mark, 
 		    has_partner(easel->session, mark->number));
 }
 
-/* Pieces drawn here are named by number; a piece that shows its reverse says so. */
-static void name_text(const struct easel *easel, int p, char *text, size_t size)
+/* Pieces drawn here are named by number; one that shows its reverse may say so. */
+static void name_text(const struct easel *easel, int p, bool say_side, char *text, size_t size)
 {
 	const struct piece *piece = piece_of(easel, p);
 	const struct phrase *cloth = &text_phrase[TEXT_CLOTH],
@@ -208,9 +208,9 @@ static void name_text(const struct easel *easel, int p, char *text, size_t size)
 	const char *en = language == LANGUAGE_JAPANESE ? "" : cloth->english;
 	const char *gap = language == LANGUAGE_BOTH ? " " : "";
 	char side[64] = "";
-	if (piece->inside_up && language == LANGUAGE_BOTH)
+	if (say_side && language == LANGUAGE_BOTH)
 		snprintf(side, sizeof side, "（%s %s）", inside->japanese, inside->english);
-	else if (piece->inside_up)
+	else if (say_side)
 		snprintf(side, sizeof side, "（%s）",
 			 language == LANGUAGE_JAPANESE ? inside->japanese : inside->english);
 	if (named)
@@ -265,7 +265,7 @@ void draw_name(const struct easel *easel, int p, struct v2 shift_mm)
 	float u = (float)easel->unit, size = 22.0f * u;
 	char text[160];
 	struct v2 low, high;
-	name_text(easel, p, text, sizeof text);
+	name_text(easel, p, piece->inside_up, text, sizeof text);
 	piece_bounds(piece, &low, &high);
 	struct v2 hem = view_sheet_px(
 		&easel->ui->view, v2_add((struct v2){0.5f * (low.x + high.x), low.y}, shift_mm));
@@ -278,12 +278,13 @@ void draw_name(const struct easel *easel, int p, struct v2 shift_mm)
 	bool free = below.y - hem.y > 16.0f * u &&
 		    !words_place(easel, p, below, width, shift_mm).crowded;
 	struct v2 at = below;
-	float fitting = 1.0f; /* a long name on a narrow piece is set smaller, down to this */
-	while (!free && fitting > 0.7f &&
-	       !words_place(easel, p, above, fitting * width, shift_mm).inside)
-		fitting -= 0.05f;
-	if (!free && fitting > 0.7f) {
-		style.size_px = (double)(fitting * size);
+	bool inside = words_place(easel, p, above, width, shift_mm).inside;
+	if (!free && !inside) { /* the reverse shows which side it is, too */
+		name_text(easel, p, false, text, sizeof text);
+		width = words_width(text, size);
+		inside = words_place(easel, p, above, width, shift_mm).inside;
+	}
+	if (!free && inside) {
 		uint32_t cloth = (piece->inside_up ? look_inside
 						   : look_outside)[piece->swatch & (SWATCHES - 1)];
 		style.colour = (cloth >> 8 & 255) < 0x70 ? 0xf6f2ea : LOOK_INK;
