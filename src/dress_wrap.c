@@ -31,7 +31,7 @@ void wrap_init(struct wrap *wrap, struct arena *arena)
 	wrap->scratch = s;
 }
 
-/* ---- the settings of each stage (tried on real garments; see the architecture's notes) ---- */
+/* ---- the settings of each stage: tried on shirts, a skirt and trousers ---- */
 
 static struct cloth_settings growing(void)
 {

@@ -15,12 +15,12 @@ enum {
 	REPORT_BYTES_MAX = 192,    /* the longest pen report known (Wacom Intuos Pro 2) */
 	FRAME_REPORTS_MAX = 64,    /* 13 kB; the rest waits for the next frame */
 	FRAME_SAMPLES_MAX = 64,    /* one a report */
-	FRAME_EDITS_MAX = 16,      /* 52 kB */
+	FRAME_EDITS_MAX = 16,      /* 108 kB */
 	STROKE_SAMPLES_MAX = 8192, /* 33 s of drawing without a lift at 250 Hz */
 
 	/* The pattern. */
 	PIECES_MAX = 24,
-	OUTLINE_POINTS_MAX = 512, /* a piece: 6 kB */
+	OUTLINE_POINTS_MAX = 512, /* a piece: 4.7 kB */
 	SEAMS_MAX = 64,
 	MARKS_MAX = 32,       /* on cloth, and as many on the body */
 	MARK_POINTS_MAX = 96, /* a body mark: 2.3 kB */
