@@ -171,17 +171,23 @@ static bool run_journal(struct dresser *dresser)
 static bool write_picture(struct dresser *dresser)
 {
 	struct snapshot snapshot;
+	const struct frame_input nobody = {0};
 	struct ui *ui = calloc(1, sizeof *ui);
-	bool open = ui && snapshot_open(&snapshot, PICTURE_WIDTH, PICTURE_HEIGHT, dresser->fault);
+	struct edit_list *edits = calloc(1, sizeof *edits);
+	bool open = ui && edits &&
+		    snapshot_open(&snapshot, PICTURE_WIDTH, PICTURE_HEIGHT, dresser->fault);
 	bool written = false;
 	if (open) {
 		ui_init(ui, snapshot.width, snapshot.height);
 		ui_step(ui, dresser->session->cloth.worn ? STEP_ADJUST : STEP_MARK);
+		/* a frame without a visitor, in which the sheet grows to hold the pattern */
+		ui_update(ui, &nobody, dresser->session, edits);
 		snapshot_take(&snapshot, ui, dresser->session);
 		written = picture_write_png(dresser->picture, snapshot.width, snapshot.height,
 					    snapshot.rgba, dresser->fault);
 		snapshot_close(&snapshot);
 	}
+	free(edits);
 	free(ui);
 	return written;
 }
