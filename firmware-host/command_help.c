@@ -91,10 +91,22 @@ static void help_journal(void)
 
 /* ---- limits ---- */
 
+enum { VERTICES_ASKED = 50000 }; /* the garment that a larger station may want */
+
 struct bill {
 	struct arena arena;
 	size_t counted;
 };
+
+/* What a garment of so many vertices would need: all that goes with the garment is proportional. */
+static void print_larger(size_t used, size_t fixed)
+{
+	double vertex = (double)(used - fixed) / GARMENT_VERTICES_MAX;
+	char what[40];
+	snprintf(what, sizeof what, "or built for %d vertices", VERTICES_ASKED);
+	printf("  %-34s %9.2f MB\n", what, ((double)fixed + vertex * VERTICES_ASKED) / 1e6);
+	printf("  %-34s %9.0f bytes\n", "a vertex, undo included", vertex);
+}
 
 /* What the last step took. */
 static void print_share(struct bill *bill, const char *what)
@@ -111,6 +123,7 @@ static void print_memory(void *memory)
 	arena_init(&bill.arena, memory, KIOSK_MEMORY_BYTES);
 	body_init(&session.body, &bill.arena);
 	print_share(&bill, "body and its tree");
+	size_t fixed = bill.counted;
 	garment_init(&session.garment, &bill.arena);
 	garment_job_init(&bill.arena);
 	print_share(&bill, "garment and its mesher");
@@ -119,16 +132,18 @@ static void print_memory(void *memory)
 	wrap_init(&session.wrap, &bill.arena);
 	drag_init(&session.drag, &bill.arena);
 	print_share(&bill, "wrap and drag");
-	size_t parts = bill.arena.used;
+	size_t parts = bill.arena.used, grown = parts - fixed;
 	arena_init(&bill.arena, memory, KIOSK_MEMORY_BYTES);
 	bill.counted = parts;
 	session_init(&session, &bill.arena);
+	grown += bill.arena.used - parts - UNDO_DOCUMENT_BYTES;
 	print_share(&bill, "undo and the rest of a session");
 	kiosk_init(&kiosk, memory, 1920, 1080);
 	bill.arena = kiosk.arena;
 	print_share(&bill, "a frame's journal lines");
 	printf("  %-34s %9.2f MB\n", "taken at start, in one block", (double)bill.arena.used / 1e6);
 	printf("  %-34s %9.2f MB\n", "of a block of", (double)KIOSK_MEMORY_BYTES / 1e6);
+	print_larger(bill.arena.used, bill.arena.used - grown);
 	printf("  %-34s %9.2f MB\n", "and outside it, the kiosk itself",
 	       (double)sizeof(struct kiosk) / 1e6);
 }

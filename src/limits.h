@@ -5,8 +5,20 @@
 #ifndef LIMITS_H
 #define LIMITS_H
 
-/* One block for everything but the C library, GL and the window system. */
-#define KIOSK_MEMORY_BYTES ((size_t)64 << 20)
+/* Vertices of a garment: the capacity that a station may want otherwise, 64 to 65535. Everything
+ * that hangs on it grows with it: make CFLAGS=-DGARMENT_VERTICES_MAX=50000 build=build/large */
+#ifndef GARMENT_VERTICES_MAX
+#define GARMENT_VERTICES_MAX 16384
+#endif
+
+/* Whole states for undo: a document is 0.2 MB, a vertex's share of a garment about 64 bytes. Holds
+ * 32 states of up to 8,000 vertices, 20 of 16,000. */
+#define UNDO_DOCUMENT_BYTES ((size_t)8 << 20)
+#define UNDO_GARMENT_BYTES ((size_t)1024 * GARMENT_VERTICES_MAX)
+
+/* One block for everything but the C library, GL and the window system: the body, and a share for
+ * every vertex of the garment. `kitsuke help limits` says what is used of it. */
+#define KIOSK_MEMORY_BYTES (((size_t)48 << 20) + (size_t)3584 * GARMENT_VERTICES_MAX)
 
 enum {
 	FRAME_RATE_HZ = 60, /* frames are the only clock inside the program */
@@ -28,17 +40,16 @@ enum {
 	NAME_BYTES_MAX = 32,
 
 	/* The garment: every piece of the pattern, meshed and sewn. */
-	GARMENT_VERTICES_MAX = 8192,
-	GARMENT_TRIANGLES_MAX = 16384,
-	GARMENT_EDGES_MAX = 3 * 8192,
-	SEAM_PAIRS_MAX = 4096,
+	GARMENT_TRIANGLES_MAX = 2 * GARMENT_VERTICES_MAX,
+	GARMENT_EDGES_MAX = 3 * GARMENT_VERTICES_MAX,
+	SEAM_PAIRS_MAX = GARMENT_VERTICES_MAX / 2,
 
 	/* The body. */
 	BODY_VERTICES_MAX = 65536,
 	BODY_TRIANGLES_MAX = 131072,
 	BODY_BONES_MAX = 32,
 
-	/* Undo: whole states, so that going back is a copy. */
+	/* Undo: whole states, so that going back is a copy; as many as fit UNDO_BYTES_MAX. */
 	UNDO_STATES_MAX = 32,
 	EDIT_POINTS_MAX = 512,
 };

@@ -1,93 +1,177 @@
 #include "session_undo.h"
 
-/* The garment's arrays, the cloth's places, and whether a wrap was under way. */
-struct saved {
-	struct document document;
-	bool wrapping;
-	bool welded, worn;
-	int vertex_count, triangle_count, pair_count;
-	int piece_first[PIECES_MAX + 1];
-	int piece_first_triangle[PIECES_MAX + 1];
-	float edge_m;
-	struct v2 *rest_m;
-	int *piece, *weld;
-	struct triangle *triangle;
-	int *triangle_piece;
-	struct seam_pair *pair;
-	struct v3 *position_m;
-	uint8_t *placed;
+enum {
+	PAGE_BYTES = (16 << 10) - (int)sizeof(int), /* 16 kB with its link */
+	PAGES = (int)((UNDO_DOCUMENT_BYTES + UNDO_GARMENT_BYTES) / (16 << 10)),
+	NO_PAGE = -1,
 };
 
-/* States oldest..newest; `now` is where the present stands among them. All three only grow. */
+struct page {
+	int next; /* undo.page; NO_PAGE: the last of its state, or of the free ones */
+	unsigned char bytes[PAGE_BYTES];
+};
+
+/* States oldest..newest; `now` is where the present stands among them. All three only grow. A state
+ * is a chain of pages out of one stock, so that small garments leave room for many. */
 struct undo {
 	int oldest, now, newest;
-	struct saved state[UNDO_STATES_MAX];
+	int first_page[UNDO_STATES_MAX];
+	int free_page, free_count;
+	struct page *page;
+	struct v3 *position_m; /* a state on its way back to the cloth */
+	uint8_t *placed;
 };
 
 struct undo *undo_init(struct arena *arena)
 {
 	struct undo *undo = ARENA_ARRAY(arena, struct undo, 1);
-	for (int i = 0; i < UNDO_STATES_MAX; i++) {
-		struct saved *s = &undo->state[i];
-		s->rest_m = ARENA_ARRAY(arena, struct v2, GARMENT_VERTICES_MAX);
-		s->piece = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
-		s->weld = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
-		s->triangle = ARENA_ARRAY(arena, struct triangle, GARMENT_TRIANGLES_MAX);
-		s->triangle_piece = ARENA_ARRAY(arena, int, GARMENT_TRIANGLES_MAX);
-		s->pair = ARENA_ARRAY(arena, struct seam_pair, SEAM_PAIRS_MAX);
-		s->position_m = ARENA_ARRAY(arena, struct v3, GARMENT_VERTICES_MAX);
-		s->placed = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
-	}
+	undo->page = ARENA_ARRAY(arena, struct page, PAGES);
+	undo->position_m = ARENA_ARRAY(arena, struct v3, GARMENT_VERTICES_MAX);
+	undo->placed = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
+	for (int i = 0; i < PAGES; i++)
+		undo->page[i].next = i + 1 < PAGES ? i + 1 : NO_PAGE;
+	for (int i = 0; i < UNDO_STATES_MAX; i++)
+		undo->first_page[i] = NO_PAGE;
+	undo->free_count = PAGES;
 	return undo;
 }
 
-#define COPY(to, from, count) memcpy((to), (from), (size_t)(count) * sizeof *(to))
+/* ---- one state as a stream of bytes ---- */
 
-static void save(struct saved *to, const struct session *session)
+enum direction { COUNTING, WRITING, READING };
+
+struct stream {
+	struct undo *undo;
+	enum direction direction;
+	size_t size; /* passed so far */
+	int *link;   /* to the page that comes next */
+	struct page *page;
+	size_t at; /* in it */
+};
+
+static void turn_page(struct stream *stream)
 {
-	const struct garment *garment = &session->garment;
-	int vertices = garment->vertex_count, triangles = garment->triangle_count;
-	to->document = session->document;
-	to->wrapping = session->job != JOB_NONE;
-	to->welded = session->cloth.welded;
-	to->worn = session->cloth.worn;
-	to->vertex_count = vertices;
-	to->triangle_count = triangles;
-	to->pair_count = garment->pair_count;
-	to->edge_m = garment->edge_m;
-	COPY(to->piece_first, garment->piece_first, PIECES_MAX + 1);
-	COPY(to->piece_first_triangle, garment->piece_first_triangle, PIECES_MAX + 1);
-	COPY(to->rest_m, garment->rest_m, vertices);
-	COPY(to->piece, garment->piece, vertices);
-	COPY(to->weld, garment->weld, vertices);
-	COPY(to->triangle, garment->triangle, triangles);
-	COPY(to->triangle_piece, garment->triangle_piece, triangles);
-	COPY(to->pair, garment->pair, garment->pair_count);
-	COPY(to->position_m, session->cloth.position_m, vertices);
-	COPY(to->placed, session->cloth.placed, vertices);
+	struct undo *undo = stream->undo;
+	if (stream->direction == WRITING) {
+		int taken = undo->free_page;
+		MUST(undo->free_count > 0);
+		undo->free_count--;
+		undo->free_page = undo->page[taken].next;
+		undo->page[taken].next = NO_PAGE;
+		*stream->link = taken;
+	}
+	stream->page = &undo->page[*stream->link];
+	stream->link = &stream->page->next;
+	stream->at = 0;
 }
 
-static void restore(struct session *session, const struct saved *from)
+static void pass(struct stream *stream, void *data, size_t size)
+{
+	unsigned char *bytes = data;
+	stream->size += size;
+	while (stream->direction != COUNTING && size > 0) {
+		if (!stream->page || stream->at == PAGE_BYTES)
+			turn_page(stream);
+		size_t room = PAGE_BYTES - stream->at, part = size < room ? size : room;
+		unsigned char *kept = stream->page->bytes + stream->at;
+		if (stream->direction == WRITING)
+			memcpy(kept, bytes, part);
+		else
+			memcpy(bytes, kept, part);
+		stream->at += part;
+		bytes += part;
+		size -= part;
+	}
+}
+
+#define PASS(stream, array, count) pass((stream), (array), (size_t)(count) * sizeof *(array))
+
+/* What a state is: document, garment, the cloth's places, and whether a wrap was under way. */
+static void pass_state(struct stream *stream, struct session *session, struct v3 *position_m,
+		       uint8_t *placed, bool *wrapping)
 {
 	struct garment *garment = &session->garment;
-	int vertices = from->vertex_count, triangles = from->triangle_count;
-	session->document = from->document;
-	garment->vertex_count = vertices;
-	garment->triangle_count = triangles;
-	garment->pair_count = from->pair_count;
-	garment->edge_m = from->edge_m;
-	COPY(garment->piece_first, from->piece_first, PIECES_MAX + 1);
-	COPY(garment->piece_first_triangle, from->piece_first_triangle, PIECES_MAX + 1);
-	COPY(garment->rest_m, from->rest_m, vertices);
-	COPY(garment->piece, from->piece, vertices);
-	COPY(garment->weld, from->weld, vertices);
-	COPY(garment->triangle, from->triangle, triangles);
-	COPY(garment->triangle_piece, from->triangle_piece, triangles);
-	COPY(garment->pair, from->pair, from->pair_count);
-	cloth_restore(&session->cloth, garment, &session->body, from->position_m, from->placed,
-		      from->welded, from->worn);
-	session_resume(session, from->wrapping);
+	PASS(stream, &session->document, 1);
+	PASS(stream, wrapping, 1);
+	PASS(stream, &session->cloth.welded, 1);
+	PASS(stream, &session->cloth.worn, 1);
+	PASS(stream, &garment->vertex_count, 1);
+	PASS(stream, &garment->triangle_count, 1);
+	PASS(stream, &garment->pair_count, 1);
+	PASS(stream, &garment->edge_m, 1);
+	PASS(stream, garment->piece_first, PIECES_MAX + 1);
+	PASS(stream, garment->piece_first_triangle, PIECES_MAX + 1);
+	PASS(stream, garment->rest_m, garment->vertex_count);
+	PASS(stream, garment->piece, garment->vertex_count);
+	PASS(stream, garment->weld, garment->vertex_count);
+	PASS(stream, garment->triangle, garment->triangle_count);
+	PASS(stream, garment->triangle_piece, garment->triangle_count);
+	PASS(stream, garment->pair, garment->pair_count);
+	PASS(stream, position_m, garment->vertex_count);
+	PASS(stream, placed, garment->vertex_count);
 }
+
+/* ---- the stock of pages ---- */
+
+static int *state_pages(struct undo *undo, int state)
+{
+	return &undo->first_page[state % UNDO_STATES_MAX];
+}
+
+static void drop(struct undo *undo, int state)
+{
+	int *first = state_pages(undo, state);
+	while (*first != NO_PAGE) {
+		int page = *first;
+		*first = undo->page[page].next;
+		undo->page[page].next = undo->free_page;
+		undo->free_page = page;
+		undo->free_count++;
+	}
+}
+
+/* The states from..to stay; of the others the oldest goes first, then what could be redone last. */
+static void make_room(struct undo *undo, size_t size, int from, int to)
+{
+	int pages = (int)((size + PAGE_BYTES - 1) / PAGE_BYTES);
+	while (undo->free_count < pages) {
+		MUST(undo->oldest < from || undo->newest > to);
+		if (undo->oldest < from)
+			drop(undo, undo->oldest++);
+		else
+			drop(undo, undo->newest--);
+	}
+}
+
+/* Saves the present as state `now`; state `next` will be wanted after it. */
+static void save(struct session *session, int next)
+{
+	struct undo *undo = session->undo;
+	struct cloth *cloth = &session->cloth;
+	bool wrapping = session->job != JOB_NONE;
+	struct stream stream = {.undo = undo};
+	pass_state(&stream, session, cloth->position_m, cloth->placed, &wrapping);
+	drop(undo, undo->now);
+	make_room(undo, stream.size, int_min(undo->now, next), int_max(undo->now, next));
+	stream.direction = WRITING;
+	stream.link = state_pages(undo, undo->now);
+	pass_state(&stream, session, cloth->position_m, cloth->placed, &wrapping);
+}
+
+static void restore(struct session *session)
+{
+	struct undo *undo = session->undo;
+	struct cloth *cloth = &session->cloth;
+	bool wrapping = false;
+	struct stream stream = {.undo = undo, .direction = READING};
+	stream.link = state_pages(undo, undo->now);
+	pass_state(&stream, session, undo->position_m, undo->placed, &wrapping);
+	cloth_restore(cloth, &session->garment, &session->body, undo->position_m, undo->placed,
+		      cloth->welded, cloth->worn);
+	session_resume(session, wrapping);
+}
+
+/* ---- back and forward ---- */
 
 static void count(struct session *session)
 {
@@ -96,18 +180,22 @@ static void count(struct session *session)
 	session->redo_count = undo->newest - undo->now;
 }
 
-static struct saved *slot(struct undo *undo, int state)
+/* What could be redone is forgotten. */
+static void cut(struct undo *undo)
 {
-	return &undo->state[state % UNDO_STATES_MAX];
+	while (undo->newest > undo->now)
+		drop(undo, undo->newest--);
 }
 
 void undo_keep(struct session *session)
 {
 	struct undo *undo = session->undo;
-	save(slot(undo, undo->now), session);
+	cut(undo);
+	if (undo->now - undo->oldest == UNDO_STATES_MAX - 1)
+		drop(undo, undo->oldest++);
+	save(session, undo->now + 1);
 	undo->now++;
 	undo->newest = undo->now;
-	undo->oldest = int_max(undo->oldest, undo->newest - (UNDO_STATES_MAX - 1));
 	count(session);
 }
 
@@ -117,9 +205,9 @@ static bool go(struct session *session, int step)
 	int to = undo->now + step;
 	if (to < undo->oldest || to > undo->newest)
 		return false;
-	save(slot(undo, undo->now), session);
+	save(session, to);
 	undo->now = to;
-	restore(session, slot(undo, to));
+	restore(session);
 	count(session);
 	return true;
 }
@@ -132,7 +220,7 @@ bool undo_back(struct session *session)
 void undo_cancel(struct session *session)
 {
 	go(session, -1);
-	session->undo->newest = session->undo->now;
+	cut(session->undo);
 	count(session);
 }
 
