@@ -49,8 +49,9 @@ static int enter_pieces(struct wrap *wrap)
 
 /* Where triangle t's corner k would lie if it went on flat from the placed triangle `across` the
  * opposite edge a -> b. */
-static struct v3 unfolded(const struct cloth *cloth, int t, int k, int across)
+static struct v3 unfolded(const struct wrap *wrap, int t, int k, int across)
 {
+	const struct cloth *cloth = wrap->cloth;
 	const struct garment *garment = cloth->garment;
 	const int *v = garment->triangle[t].v, *w = garment->triangle[across].v;
 	const struct v3 *x = cloth->position_m;
@@ -64,7 +65,9 @@ static struct v3 unfolded(const struct cloth *cloth, int t, int k, int across)
 	struct v2 to = v2_sub(garment->rest_m[d], garment->rest_m[a]);
 	struct v3 middle = v3_lerp(x[a], x[b], 0.5f);
 	struct v3 left = v3_normalize(v3_cross(normal, edge));
-	return v3_mad(v3_mad(middle, edge, v2_dot(to, u) - 0.5f * length), left, v2_cross(u, to));
+	struct v3 flat_on = v3_mad(v3_mad(middle, edge, v2_dot(to, u) - 0.5f * length), left,
+				   v2_cross(u, to));
+	return wrap_curl(wrap, garment->triangle_piece[t], middle, flat_on);
 }
 
 /* Does cloth grow from triangle `across` into t? Over a seam only into a piece that no mark laid:
@@ -90,7 +93,7 @@ static void predict_corner(struct wrap *wrap, int t, int k)
 		if (int_max(weld[w[j]], weld[w[(j + 1) % 3]]) != high ||
 		    !continues(wrap, t, across))
 			continue;
-		s->sum_m[d] = v3_add(s->sum_m[d], unfolded(cloth, t, k, across));
+		s->sum_m[d] = v3_add(s->sum_m[d], unfolded(wrap, t, k, across));
 		s->count[d]++;
 	}
 }

@@ -5,9 +5,12 @@
 #include "cloth_private.h"
 #include "dress.h"
 
+enum { PART_NONE = -1 }; /* a home nowhere on the body */
+
 struct wrap_scratch {
-	uint8_t *seeded;  /* per piece: a mark lies on it */
-	struct v3 *sum_m; /* per vertex: predictions of a ring */
+	int8_t home[PIECES_MAX]; /* enum body_part that the piece belongs to, or PART_NONE */
+	uint8_t *seeded;         /* per piece: a mark lies on it */
+	struct v3 *sum_m;        /* per vertex: predictions of a ring */
 	int *count;
 	int *edge_first;    /* per vertex + 1: triangles on edges whose lower vertex it is */
 	int *edge_triangle; /* triangle * 3 + corner */
@@ -21,6 +24,16 @@ struct wrap_scratch {
 
 /* Puts the triangles under the marks on the body (dress_seed.c). Returns the vertices seeded. */
 int wrap_seed(struct wrap *wrap);
+
+/* The body's mark of that number; NULL: none. */
+const struct body_mark *wrap_partner(const struct marks *marks, int number);
+
+/* Fills scratch->home and the cloth's piece_parts (dress_home.c). */
+void wrap_find_homes(struct wrap *wrap);
+
+/* A step of growth from_m -> to_m bent round the bones of the limb that the piece belongs to, so
+ * that cloth goes round a limb however far it grows. Elsewhere to_m itself. */
+struct v3 wrap_curl(const struct wrap *wrap, int piece, struct v3 from_m, struct v3 to_m);
 
 /* The number of a mark that laid this piece; 0: none did. */
 int wrap_piece_mark(const struct wrap *wrap, int piece);

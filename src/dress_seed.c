@@ -39,7 +39,7 @@ void wrap_diagnose(struct wrap *wrap, const char *kind, int mark_1, int mark_2, 
 	}
 }
 
-static const struct body_mark *partner(const struct marks *marks, int number)
+const struct body_mark *wrap_partner(const struct marks *marks, int number)
 {
 	for (int m = 0; m < MARKS_MAX; m++)
 		if (marks->body[m].used && marks->body[m].number == number)
@@ -164,7 +164,7 @@ static void diagnose_lonely(struct wrap *wrap)
 	const struct marks *marks = wrap->marks;
 	for (int m = 0; m < MARKS_MAX; m++) {
 		int cloth = marks->cloth[m].number, body = marks->body[m].number;
-		if (marks->cloth[m].used && !partner(marks, cloth))
+		if (marks->cloth[m].used && !wrap_partner(marks, cloth))
 			wrap_diagnose(wrap, "no-partner", cloth, 0,
 				      "Mark %1 on the cloth has no partner on the body.");
 		if (marks->body[m].used && !on_cloth(marks, body))
@@ -194,8 +194,8 @@ static void diagnose_directions(struct wrap *wrap)
 			const struct cloth_mark *a = &marks->cloth[i], *b = &marks->cloth[j];
 			if (!a->used || !b->used || a->piece != b->piece)
 				continue;
-			const struct body_mark *on_a = partner(marks, a->number);
-			const struct body_mark *on_b = partner(marks, b->number);
+			const struct body_mark *on_a = wrap_partner(marks, a->number);
+			const struct body_mark *on_b = wrap_partner(marks, b->number);
 			if (!on_a || !on_b)
 				continue;
 			float cloth = v2_dot(cloth_chord(a), cloth_chord(b));
@@ -232,7 +232,8 @@ static void choose_drawn(struct wrap *wrap)
 		cloth->piece_drawn[p] = true;
 	for (int m = 0; m < MARKS_MAX; m++) {
 		const struct cloth_mark *mark = &wrap->marks->cloth[m];
-		const struct body_mark *on = mark->used ? partner(wrap->marks, mark->number) : NULL;
+		const struct body_mark *on = mark->used ? wrap_partner(wrap->marks, mark->number)
+							: NULL;
 		if (on && mark_part(cloth->body, on) == PART_TRUNK)
 			cloth->piece_drawn[mark->piece] = false;
 	}
@@ -243,9 +244,10 @@ int wrap_seed(struct wrap *wrap)
 	const struct marks *marks = wrap->marks;
 	int seeds = 0;
 	memset(wrap->scratch->seeded, 0, PIECES_MAX);
+	wrap_find_homes(wrap);
 	for (int m = 0; m < MARKS_MAX; m++) {
 		const struct cloth_mark *mark = &marks->cloth[m];
-		const struct body_mark *on = mark->used ? partner(marks, mark->number) : NULL;
+		const struct body_mark *on = mark->used ? wrap_partner(marks, mark->number) : NULL;
 		if (on && mark->point_count >= 2 && on->point_count >= 2)
 			seeds += seed_mark(wrap, mark, on);
 	}
@@ -260,7 +262,7 @@ int wrap_piece_mark(const struct wrap *wrap, int piece)
 	const struct marks *marks = wrap->marks;
 	for (int m = 0; m < MARKS_MAX; m++)
 		if (marks->cloth[m].used && marks->cloth[m].piece == piece &&
-		    partner(marks, marks->cloth[m].number))
+		    wrap_partner(marks, marks->cloth[m].number))
 			return marks->cloth[m].number;
 	return 0;
 }

@@ -1,0 +1,137 @@
+/* Where each piece belongs: on the trunk, the head or one limb. Marks say so for the pieces that
+ * carry them; the others belong where what they are sewn to belongs. Until it has arrived a piece
+ * meets only the body parts that it has to do with, and bends round their bones. */
+#include "dress_private.h"
+
+enum { TRUNK_BIT = 1 << PART_TRUNK };
+
+static const float curl_radius_least_m = 0.005f; /* nearer to a bone there is no way round it */
+
+/* Points of a piece's marks that lie on each part of the body. */
+static void vote(const struct wrap *wrap, int votes[PIECES_MAX][PART_COUNT])
+{
+	const struct marks *marks = wrap->marks;
+	memset(votes, 0, PIECES_MAX * sizeof *votes);
+	for (int m = 0; m < MARKS_MAX; m++) {
+		const struct cloth_mark *mark = &marks->cloth[m];
+		const struct body_mark *on = mark->used ? wrap_partner(marks, mark->number) : NULL;
+		for (int i = 0; on && i < on->point_count; i++) {
+			struct body_hit hit;
+			body_nearest(wrap->cloth->body, on->point_m[i], 0, &hit);
+			votes[mark->piece][wrap->cloth->body->part[hit.triangle]]++;
+		}
+	}
+}
+
+static int most_votes(const int votes[PART_COUNT])
+{
+	int most = 0;
+	for (int part = 1; part < PART_COUNT; part++)
+		most = votes[part] > votes[most] ? part : most;
+	return votes[most] > 0 ? most : PART_NONE;
+}
+
+/* One round of handing homes on over seams: a piece without one takes the home to which most of its
+ * sewn vertices lead. Returns how many were handed on. */
+static int hand_on(struct wrap *wrap)
+{
+	const struct garment *garment = wrap->cloth->garment;
+	int8_t *home = wrap->scratch->home;
+	int votes[PIECES_MAX][PART_COUNT], found = 0;
+	memset(votes, 0, sizeof votes);
+	for (int i = 0; i < 2 * garment->pair_count; i++) {
+		const struct seam_pair *pair = &garment->pair[i / 2];
+		int from = garment->piece[i & 1 ? pair->b : pair->a];
+		int to = garment->piece[i & 1 ? pair->a : pair->b];
+		if (home[from] != PART_NONE && home[to] == PART_NONE)
+			votes[to][home[from]]++;
+	}
+	for (int p = 0; p < PIECES_MAX; p++) {
+		int part = home[p] == PART_NONE ? most_votes(votes[p]) : PART_NONE;
+		if (part == PART_NONE)
+			continue;
+		home[p] = (int8_t)part;
+		found++;
+	}
+	return found;
+}
+
+/* A limb with pieces of its own is theirs alone; every other limb is met by all that lies on the
+ * trunk. */
+static void allow_parts(struct wrap *wrap)
+{
+	struct cloth *cloth = wrap->cloth;
+	const int8_t *home = wrap->scratch->home;
+	unsigned taken = 0;
+	for (int p = 0; p < PIECES_MAX; p++)
+		if (home[p] >= PART_ARM_LEFT)
+			taken |= 1u << home[p];
+	unsigned all = (1u << PART_COUNT) - 1;
+	for (int p = 0; p < PIECES_MAX; p++) {
+		bool limb = home[p] >= PART_ARM_LEFT;
+		cloth->piece_parts[p] = limb ? 1u << home[p] | TRUNK_BIT : all & ~taken;
+	}
+}
+
+void wrap_find_homes(struct wrap *wrap)
+{
+	int votes[PIECES_MAX][PART_COUNT];
+	int8_t *home = wrap->scratch->home;
+	vote(wrap, votes);
+	for (int p = 0; p < PIECES_MAX; p++)
+		home[p] = (int8_t)most_votes(votes[p]);
+	while (hand_on(wrap) > 0)
+		;
+	allow_parts(wrap);
+}
+
+/* ---- bones as axes ---- */
+
+/* The nearest point on a part's bones, which go on straight beyond both ends of the chain; *along
+ * is their direction there. False: the part has no bones. */
+static bool find_axis(const struct body *body, int part, struct v3 p_m, struct v3 *on_m,
+		      struct v3 *along)
+{
+	float best = 1e9f;
+	int first = -1, last = -1;
+	for (int b = 0; b < body->bone_count; b++)
+		if ((int)body->bone[b].part == part && (first < 0 || last == b - 1)) {
+			first = first < 0 ? b : first;
+			last = b;
+		}
+	for (int b = first; first >= 0 && b <= last; b++) {
+		struct v3 a_m = body->bone[b].a_m, step = v3_sub(body->bone[b].b_m, a_m);
+		float length2 = float_max(v3_dot(step, step), 1e-8f);
+		float share = v3_dot(v3_sub(p_m, a_m), step) / length2;
+		if (share < 0.0f && b > first)
+			share = 0.0f;
+		if (share > 1.0f && b < last)
+			share = 1.0f;
+		struct v3 q = v3_mad(a_m, step, share);
+		float distance = v3_distance(q, p_m);
+		if (distance < best) {
+			best = distance;
+			*on_m = q;
+			*along = v3_normalize(step);
+		}
+	}
+	return first >= 0;
+}
+
+struct v3 wrap_curl(const struct wrap *wrap, int piece, struct v3 from_m, struct v3 to_m)
+{
+	struct v3 axis_m = from_m, along = {0.0f, 1.0f, 0.0f};
+	int home = wrap->scratch->home[piece];
+	if (home < PART_ARM_LEFT || !find_axis(wrap->cloth->body, home, from_m, &axis_m, &along))
+		return to_m;
+	struct v3 arm = v3_sub(from_m, axis_m);
+	arm = v3_mad(arm, along, -v3_dot(arm, along));
+	float radius = v3_length(arm);
+	if (radius < curl_radius_least_m)
+		return to_m;
+	struct v3 step = v3_sub(to_m, from_m), out = v3_scale(arm, 1.0f / radius);
+	struct v3 round = v3_cross(along, out);
+	float turn = v3_dot(step, round) / radius;
+	struct v3 straight = v3_mad(step, round, -v3_dot(step, round));
+	return v3_add(axis_m, v3_turn(v3_add(v3_sub(from_m, axis_m), straight), along, turn));
+}
