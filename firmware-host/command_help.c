@@ -26,7 +26,7 @@ static void help_commands(void)
 	     "  kitsuke record --out TAPE     records attached tablets and buttons\n"
 	     "  kitsuke devices [--descriptor FILE]\n"
 	     "                                what is attached, and what a descriptor yields\n"
-	     "  kitsuke help [journal|tape|board|limits]\n"
+	     "  kitsuke help [journal|landmarks|tape|board|limits]\n"
 	     "\n"
 	     "Exit status: 0 done, 1 the input is at fault, 2 usage, 3 the machine is at fault.");
 }
@@ -53,6 +53,8 @@ static const struct edit_help edit_help[EDIT_KIND_COUNT] = {
 	[EDIT_UNSEW] = {"SEAM", "opens a seam"},
 	[EDIT_MARK_CLOTH] = {"NUMBER PIECE X Y ...", "a line on the cloth, mm on the piece"},
 	[EDIT_MARK_BODY] = {"NUMBER X Y Z ...", "a line on the body, m; snaps to the surface"},
+	[EDIT_MARK_AT] = {"NUMBER LANDMARK FROM TO ALONG ASIDE",
+			  "the same, along a landmark: `kitsuke help landmarks`"},
 	[EDIT_UNMARK] = {"SIDE NUMBER", "erases a mark; SIDE 0 cloth, 1 body"},
 	[EDIT_WRAP] = {"", "lays the garment on the body, equal numbers together"},
 	[EDIT_GRAB] = {"PIECE X Y", "takes hold of a cloth point, mm on the piece"},
@@ -87,6 +89,29 @@ static void help_journal(void)
 	for (int kind = 0; kind < EDIT_KIND_COUNT; kind++)
 		printf("  %s %s\n      %s\n", edit_word[kind], edit_help[kind].arguments,
 		       edit_help[kind].meaning);
+}
+
+/* ---- landmarks ---- */
+
+static void help_landmarks(void)
+{
+	puts("A landmark is a named line on the body, found from its bones, so that a mark can be "
+	     "\nstated once for every body. Left is the wearer's left.\n"
+	     "\n"
+	     "  mark-at NUMBER LANDMARK FROM TO ALONG ASIDE\n"
+	     "\n"
+	     "FROM and TO count the landmark's stops from 0: on front-centre (neck pit, waist,\n"
+	     "crotch) 0 0.6 is 60 % of the way from neck pit to waist, 1 2 from waist to crotch;\n"
+	     "FROM above TO runs the other way. A line round the body begins in front, goes to\n"
+	     "the wearer's left, is closed, and 1 is once round. ALONG moves both ends so many\n"
+	     "metres on towards the landmark's end, ASIDE moves the line over the surface, metres\n"
+	     "to the left of the landmark's way as one sees it from outside. Mark 1 from 2 cm\n"
+	     "below the neck pit, mark 2 a hand's breadth beside it on the wearer's left:\n"
+	     "\n"
+	     "  mark-at 1 front-centre 0 1 0.02 0\n"
+	     "  mark-at 2 front-centre 0 1 0.02 0.09\n");
+	for (int i = 0; i < LANDMARK_COUNT; i++)
+		printf("  %-24s %s\n", landmark_name[i], landmark_stops[i]);
 }
 
 /* ---- limits ---- */
@@ -214,6 +239,8 @@ int command_help(int argc, char **argv)
 		help_commands();
 	else if (argc <= 2 && strcmp(topic, "journal") == 0)
 		help_journal();
+	else if (argc <= 2 && strcmp(topic, "landmarks") == 0)
+		help_landmarks();
 	else if (argc <= 2 && strcmp(topic, "tape") == 0)
 		help_tape();
 	else if (argc <= 2 && strcmp(topic, "board") == 0)
@@ -221,7 +248,8 @@ int command_help(int argc, char **argv)
 	else if (argc <= 2 && strcmp(topic, "limits") == 0)
 		return help_limits();
 	else {
-		fputs("usage: kitsuke help [commands|journal|tape|board|limits]\n", stderr);
+		fputs("usage: kitsuke help [commands|journal|landmarks|tape|board|limits]\n",
+		      stderr);
 		return STATUS_USAGE;
 	}
 	return STATUS_DONE;

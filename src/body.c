@@ -22,6 +22,7 @@ void body_init(struct body *body, struct arena *arena)
 	scratch->centre_m = ARENA_ARRAY(arena, struct v3, BODY_TRIANGLES_MAX);
 	scratch->fill = ARENA_ARRAY(arena, int, BODY_VERTICES_MAX);
 	scratch->parts = parts_init(arena);
+	scratch->landmarks = landmark_init(arena);
 	body->scratch = scratch;
 }
 
@@ -292,6 +293,7 @@ const char *body_build(struct body *body, const struct v3 *position_m, int verte
 	build_tree(body);
 	memset(body->part, PART_TRUNK, (size_t)body->triangle_count);
 	body->bone_count = 0;
+	memset(body->landmark, 0, sizeof body->landmark);
 	body->hash = hash_mesh(body);
 	return NULL;
 }

@@ -4,6 +4,7 @@
 #define BODY_H
 
 #include "arena.h"
+#include "body_landmark.h"
 #include "garment.h"
 #include "vec.h"
 
@@ -47,6 +48,7 @@ struct body {
 	int bone_count; /* spine from the pelvis up, neck, head, limbs; collar-bones and hips last
 			 */
 	struct bone bone[BODY_BONES_MAX];
+	struct landmark_line landmark[LANDMARK_COUNT];
 	struct v3 low_m, high_m;
 	uint64_t hash;                /* of positions and triangles: names the body in a journal */
 	struct body_scratch *scratch; /* owned by body_*.c */
@@ -95,6 +97,10 @@ bool body_ray(const struct body *body, struct v3 origin_m, struct v3 direction,
 	      struct body_hit *hit);
 bool body_ray_back(const struct body *body, struct v3 origin_m, struct v3 direction,
 		   struct body_hit *hit);
+
+/* The first hit with a back face: where a ray from inside leaves the body. */
+bool body_ray_out(const struct body *body, struct v3 origin_m, struct v3 direction,
+		  struct body_hit *hit);
 
 /* Does the segment pass through the surface? */
 bool body_segment_hits(const struct body *body, struct v3 a_m, struct v3 b_m, struct body_hit *hit);

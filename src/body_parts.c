@@ -132,5 +132,6 @@ bool body_find_parts(struct body *body)
 		label_triangles(body, s, limb);
 		parts_bones(body, s, limb);
 	}
+	body_find_landmarks(body);
 	return found;
 }

@@ -2,6 +2,7 @@
 #ifndef BODY_PRIVATE_H
 #define BODY_PRIVATE_H
 
+#include "body_landmark_private.h"
 #include "body_parts.h"
 
 enum { TREE_STACK_MAX = 64 }; /* twice the depth of a median tree of all triangles that fit */
@@ -10,6 +11,7 @@ struct body_scratch {
 	struct v3 *centre_m; /* per triangle, while the tree is built */
 	int *fill;           /* per vertex, while stars are built */
 	struct parts_scratch *parts;
+	struct landmark_scratch *landmarks;
 };
 
 /* The vertex normals interpolated at a point of triangle t. */

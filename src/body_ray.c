@@ -81,6 +81,7 @@ static bool ray_triangle(const struct body *body, int t, const struct ray *ray, 
 
 enum ray_wanted {
 	RAY_FIRST_FRONT,
+	RAY_FIRST_BACK,
 	RAY_LAST_BACK,
 	RAY_FIRST_ANY,
 };
@@ -108,6 +109,7 @@ static bool cast(const struct body *body, struct v3 o, struct v3 d, float t_max,
 			bool nearer = distance < best || (distance == best && t < found);
 			bool farther = distance > best && distance <= t_max;
 			if ((wanted == RAY_FIRST_FRONT && front && nearer) ||
+			    (wanted == RAY_FIRST_BACK && !front && nearer) ||
 			    (wanted == RAY_FIRST_ANY && nearer) ||
 			    (wanted == RAY_LAST_BACK && !front && farther)) {
 				best = distance;
@@ -133,6 +135,12 @@ bool body_ray(const struct body *body, struct v3 origin_m, struct v3 direction,
 	      struct body_hit *hit)
 {
 	return cast(body, origin_m, direction, 1e9f, RAY_FIRST_FRONT, hit);
+}
+
+bool body_ray_out(const struct body *body, struct v3 origin_m, struct v3 direction,
+		  struct body_hit *hit)
+{
+	return cast(body, origin_m, direction, 1e9f, RAY_FIRST_BACK, hit);
 }
 
 bool body_ray_back(const struct body *body, struct v3 origin_m, struct v3 direction,

@@ -25,6 +25,7 @@
 	X(EDIT_UNSEW, "unsew", "i")       /* seam */                                               \
 	X(EDIT_MARK_CLOTH, "mark-cloth", "ii2") /* number piece, line in mm */                     \
 	X(EDIT_MARK_BODY, "mark-body", "i3")    /* number, line in m: snaps to the surface */      \
+	X(EDIT_MARK_AT, "mark-at", "inffff")    /* number landmark from to along aside */          \
 	X(EDIT_UNMARK, "unmark", "ii")          /* side (0 cloth, 1 body) number */                \
 	X(EDIT_WRAP, "wrap", "")                                                                   \
 	X(EDIT_GRAB, "grab", "iff") /* piece x y: the cloth point under the pen */                 \

@@ -90,6 +90,41 @@ static const char *mark_body(struct session *session, const struct edit *edit)
 	return NULL;
 }
 
+/* A place of a line is worth so many stops that a hand-written number still makes sense. */
+static bool places_are_sane(const struct edit *edit)
+{
+	for (int i = 0; i < 4; i++)
+		if (!(float_abs(edit->f[i]) <= 10.0f))
+			return false;
+	return true;
+}
+
+static const char *mark_at(struct session *session, const struct edit *edit)
+{
+	struct body_mark line = {.used = true, .number = edit->i[0]};
+	enum landmark landmark = landmark_find(edit->name);
+	if (!number_is_sane(edit->i[0]))
+		return "marks are numbered from 1 to 99";
+	if (landmark == LANDMARK_COUNT)
+		return "there is no landmark of that name; `kitsuke help landmarks` lists them";
+	if (!places_are_sane(edit))
+		return "FROM and TO count stops, ALONG and ASIDE metres, each within 10";
+	if (session->body.landmark[landmark].count == 0)
+		return "this body has no such landmark: its bones were not found; give them in a "
+		       "file, or draw the mark with mark-body";
+	line.point_count = landmark_cut(&session->body, landmark, edit->f[0], edit->f[1],
+					edit->f[2], edit->f[3], line.point_m, line.normal);
+	if (line.point_count == 0)
+		return "nothing is left of the landmark between FROM and TO; set them further "
+		       "apart";
+	int place = mark_place(&session->document.marks, 1, edit->i[0]);
+	if (place < 0)
+		return "there are as many marks as fit; erase one first";
+	undo_keep(session);
+	session->document.marks.body[place] = line;
+	return NULL;
+}
+
 static const char *unmark(struct session *session, const struct edit *edit)
 {
 	struct marks *marks = &session->document.marks;
@@ -236,6 +271,8 @@ static const char *apply(struct session *session, const struct edit *edit)
 		return mark_cloth(session, edit);
 	case EDIT_MARK_BODY:
 		return mark_body(session, edit);
+	case EDIT_MARK_AT:
+		return mark_at(session, edit);
 	case EDIT_UNMARK:
 		return unmark(session, edit);
 	case EDIT_WRAP:
