@@ -91,6 +91,9 @@ struct cloth_settings cloth_settings_relax(void);
  * that readers may use position_m[v] directly. */
 void cloth_finish(struct cloth *cloth);
 
+/* Largest principal stretch of a triangle minus 1, 0 where it is not stretched (0.02: 2 %). */
+float cloth_stretch(const struct cloth *cloth, int triangle);
+
 /* Mean stretch of the placed triangles (0.02: 2 %); cheap, for the visitor's meter. */
 float cloth_strain_mean(const struct cloth *cloth);
 

@@ -53,8 +53,8 @@ int cloth_ray(const struct cloth *cloth, struct v3 origin_m, struct v3 direction
 	return found;
 }
 
-/* The larger singular value of F minus 1 where it is positive, by the eigenvalues of F^T F. */
-static float stretch(const struct cloth *cloth, int t)
+/* By the eigenvalues of F^T F. */
+float cloth_stretch(const struct cloth *cloth, int t)
 {
 	const int *v = cloth->triangle[t].v;
 	const struct rest *rest = &cloth->scratch->rest[t];
@@ -74,7 +74,7 @@ float cloth_strain_mean(const struct cloth *cloth)
 	for (int t = 0; cloth->garment && t < cloth->garment->triangle_count; t++) {
 		if (!triangle_placed(cloth, t))
 			continue;
-		sum += stretch(cloth, t);
+		sum += cloth_stretch(cloth, t);
 		count++;
 	}
 	return count > 0 ? sum / (float)count : 0.0f;

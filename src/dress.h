@@ -59,6 +59,13 @@ struct pin {
 	struct v3 held_m;
 };
 
+/* Who hands the motion on to a particle: the ends of the edge over which the straight way to it
+ * comes; from[0] below 0: nobody, it is a corner of the grabbed triangle. */
+struct giver {
+	int from[2];
+	float share; /* 0..1: from[1]'s */
+};
+
 /* Surface drag (S11, S15, S16). The graph is built at pen-down; motion is then handed on along it,
  * turned to follow the body's surface, and weakened towards the pins. */
 struct drag {
@@ -70,10 +77,7 @@ struct drag {
 	int *order;        /* particles by distance from the grabbed point */
 	float *distance_m; /* per particle, along the body's surface; below 0: not reached */
 	float *share;      /* per particle 0..1: what the pins leave of the motion, r (2 - r) */
-	int *from_first;   /* per place in `order` + 1: who hands the motion on, from[from_first[k]
-			      ..] */
-	int *from;
-	float *from_share;            /* sums to 1 over a particle's hands */
+	const struct giver *giver;    /* per particle reached */
 	int moves;                    /* since the hand took hold */
 	struct drag_scratch *scratch; /* the graph while it is built; what each particle hands on */
 };

@@ -11,11 +11,11 @@
  */
 #include "dress_drag_private.h"
 
-static const float grip_m = 0.03f;  /* what the fingers hold */
+static const float grip_m = 0.04f;  /* what the fingers hold */
 static const float near_m = 0.03f;  /* cloth nearer to the body than this follows its surface */
 static const float loose_m = 0.06f; /* cloth farther from the body than this follows in space */
 static const float hand_region_m = 0.08f;
-static const float strain_free = 0.13f, strain_most = 0.28f;                   /* near the hand */
+static const float strain_free = 0.2f, strain_most = 0.5f; /* that a drag may add near the hand */
 static const float yield_fall = 0.5f, yield_rise = 0.03f, yield_spread = 0.2f; /* a move */
 
 void drag_init(struct drag *drag, struct arena *arena)
@@ -24,22 +24,23 @@ void drag_init(struct drag *drag, struct arena *arena)
 	drag->order = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
 	drag->distance_m = ARENA_ARRAY(arena, float, GARMENT_VERTICES_MAX);
 	drag->share = ARENA_ARRAY(arena, float, GARMENT_VERTICES_MAX);
-	drag->from_first = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX + 1);
-	drag->from = ARENA_ARRAY(arena, int, NEIGHBOURS_MAX);
-	drag->from_share = ARENA_ARRAY(arena, float, NEIGHBOURS_MAX);
 	struct drag_scratch *scratch = ARENA_ARRAY(arena, struct drag_scratch, 1);
-	scratch->first = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX + 1);
-	scratch->end = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
-	scratch->neighbour = ARENA_ARRAY(arena, int, NEIGHBOURS_MAX);
-	scratch->way_m = ARENA_ARRAY(arena, float, NEIGHBOURS_MAX);
-	scratch->rest_m = ARENA_ARRAY(arena, float, NEIGHBOURS_MAX);
-	scratch->hand = ARENA_ARRAY(arena, struct hand, GARMENT_VERTICES_MAX);
-	scratch->left_m = ARENA_ARRAY(arena, struct v3, GARMENT_VERTICES_MAX);
-	scratch->gripped = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
-	scratch->heap = ARENA_ARRAY(arena, struct heap_item, NEIGHBOURS_MAX);
+	struct front *front = &scratch->front;
+	front->first = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX + 2);
+	front->corner = ARENA_ARRAY(arena, int, 3 * GARMENT_TRIANGLES_MAX);
+	front->way_m = ARENA_ARRAY(arena, float, 3 * GARMENT_TRIANGLES_MAX);
+	front->state = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
+	front->giver = ARENA_ARRAY(arena, struct giver, GARMENT_VERTICES_MAX);
+	front->place = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
+	front->heap = ARENA_ARRAY(arena, uint64_t, GARMENT_VERTICES_MAX);
 	scratch->pin_distance_m = ARENA_ARRAY(arena, float, GARMENT_VERTICES_MAX);
-	scratch->settled = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
 	scratch->blocked = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
+	scratch->gripped = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
+	scratch->hand = ARENA_ARRAY(arena, struct hand, GARMENT_VERTICES_MAX);
+	scratch->near_triangle = ARENA_ARRAY(arena, int, GARMENT_TRIANGLES_MAX);
+	scratch->near_stretch = ARENA_ARRAY(arena, float, GARMENT_TRIANGLES_MAX);
+	scratch->left_m = ARENA_ARRAY(arena, struct v3, GARMENT_VERTICES_MAX);
+	drag->giver = front->giver;
 	drag->scratch = scratch;
 }
 
@@ -70,8 +71,25 @@ static void take_grip(struct drag *drag)
 	for (int k = 0; k < drag->order_count; k++) {
 		int a = drag->order[k];
 		s->gripped[a] = drag->distance_m[a] <= grip_m && !drag->cloth->held[a];
-		s->hand[a] = (struct hand){.normal = normal_under(drag->cloth, a), .yield = 1.0f};
+		s->hand[a] = (struct hand){.yield = 1.0f};
 		s->left_m[a] = drag->cloth->position_m[a];
+	}
+}
+
+static void list_near(struct drag *drag)
+{
+	struct drag_scratch *s = drag->scratch;
+	s->near_count = 0;
+	for (int t = 0; t < drag->cloth->garment->triangle_count; t++) {
+		const int *v = drag->cloth->triangle[t].v;
+		bool near = true;
+		for (int k = 0; k < 3; k++)
+			near &= drag->distance_m[v[k]] >= 0.0f &&
+				drag->distance_m[v[k]] <= hand_region_m;
+		if (!near)
+			continue;
+		s->near_stretch[s->near_count] = cloth_stretch(drag->cloth, t);
+		s->near_triangle[s->near_count++] = t;
 	}
 }
 
@@ -100,6 +118,7 @@ void drag_begin(struct drag *drag, struct cloth *cloth, const struct pin *pins, 
 
 	drag_build_graph(drag, pins, pin_count);
 	take_grip(drag);
+	list_near(drag);
 	hold_grabbed(drag, true);
 }
 
@@ -133,25 +152,16 @@ static struct v3 transport(struct v3 v, struct v3 a, struct v3 b)
 	return v3_mad(v3_mad(v, sum, -v3_dot(sum, v) / one_plus_cosine), b, 2.0f * along);
 }
 
-/* How far the cloth near the hand is stretched, as a share of what is allowed: 0 none, 1 all. */
+/* How far the drag has stretched the cloth near the hand, at its worst place. */
 static float strain_at_hand(const struct drag *drag)
 {
 	const struct drag_scratch *s = drag->scratch;
-	const struct v3 *x = drag->cloth->position_m;
-	float sum = 0.0f;
-	int count = 0;
-	for (int k = 0; k < drag->order_count; k++) {
-		int a = drag->order[k];
-		if (drag->distance_m[a] > hand_region_m)
-			break;
-		for (int i = s->first[a]; i < s->end[a]; i++) {
-			float rest = s->rest_m[i];
-			float stretch = v3_distance(x[a], x[s->neighbour[i]]) / rest - 1.0f;
-			sum += float_max(stretch, 0.0f) * float_max(stretch, 0.0f);
-			count++;
-		}
+	float most = 0.0f;
+	for (int i = 0; i < s->near_count; i++) {
+		float stretch = cloth_stretch(drag->cloth, s->near_triangle[i]);
+		most = float_max(most, stretch - s->near_stretch[i]);
 	}
-	return count > 0 ? sqrtf(sum / (float)count) : 0.0f;
+	return most;
 }
 
 /* The pen's pull at the grabbed point: along the surface where the cloth lies on the body, and
@@ -177,15 +187,16 @@ static struct v3 pull_m(const struct drag *drag, struct v3 target_m)
 	return length > most ? v3_scale(pull, most / length) : pull;
 }
 
-/* What the hands say in the mean, turned from their mean tangent plane into the particle's. The
- * mean of vectors that agree keeps their length; where fronts meet that disagree it is shorter. */
-static void hand_on(struct drag *drag, int k)
+/* What the givers say in the mean, turned from their mean tangent plane into the particle's. The
+ * mean of vectors that agree keeps their length; of those that disagree it is shorter. */
+static void hand_on(struct drag *drag, int particle)
 {
 	const struct hand *from = drag->scratch->hand;
-	struct hand mean = {0}, *to = &drag->scratch->hand[drag->order[k]];
-	for (int i = drag->from_first[k]; i < drag->from_first[k + 1]; i++) {
-		const struct hand *b = &from[drag->from[i]];
-		float share = drag->from_share[i];
+	const struct giver *giver = &drag->giver[particle];
+	struct hand mean = {0}, *to = &drag->scratch->hand[particle];
+	for (int i = 0; i < 2; i++) {
+		const struct hand *b = &from[giver->from[i]];
+		float share = i == 1 ? giver->share : 1.0f - giver->share;
 		mean.motion_m = v3_mad(mean.motion_m, b->motion_m, share);
 		mean.normal = v3_mad(mean.normal, b->normal, share);
 		mean.length_m += share * b->length_m;
@@ -216,24 +227,34 @@ static void learn_yield(struct drag *drag, int a)
 	hand->yield = float_clamp(hand->yield * follow + yield_rise, 0.0f, 1.0f);
 }
 
-/* Normals change slowly: every other particle's is looked up in a move. */
+/* Normals change slowly: after the first move every other particle's is looked up. */
+static void look_up_normals(struct drag *drag)
+{
+	int step = drag->moves == 0 ? 1 : 2;
+	for (int k = drag->moves % step; k < drag->order_count; k += step) {
+		int a = drag->order[k];
+		drag->scratch->hand[a].normal = normal_under(drag->cloth, a);
+	}
+	drag->moves++;
+}
+
 long drag_move(struct drag *drag, struct v3 target_m)
 {
 	MUST(drag->active);
 	struct cloth *cloth = drag->cloth;
 	struct drag_scratch *s = drag->scratch;
-	for (int k = drag->moves++ & 1; k < drag->order_count; k += 2)
-		s->hand[drag->order[k]].normal = normal_under(cloth, drag->order[k]);
+	look_up_normals(drag);
 	struct v3 pull = pull_m(drag, target_m);
 	for (int k = 0; k < drag->order_count; k++) {
 		int a = drag->order[k];
 		struct hand *hand = &s->hand[a];
-		if (drag->distance_m[a] == 0.0f) {
+		if (drag->giver[a].from[0] < 0) {
 			hand->motion_m = pull;
 			hand->length_m = v3_length(pull);
 		} else {
-			learn_yield(drag, a);
-			hand_on(drag, k);
+			if (!s->gripped[a])
+				learn_yield(drag, a);
+			hand_on(drag, a);
 		}
 		struct v3 step = v3_scale(hand->motion_m, drag->share[a] * hand->yield);
 		cloth->position_m[a] = v3_add(cloth->position_m[a], step);
@@ -241,5 +262,5 @@ long drag_move(struct drag *drag, struct v3 target_m)
 		s->left_m[a] = cloth->position_m[a];
 	}
 	hold_grabbed(drag, true);
-	return 2 * drag->order_count + drag->from_first[drag->order_count];
+	return 4L * drag->order_count;
 }

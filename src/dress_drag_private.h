@@ -4,11 +4,20 @@
 
 #include "dress.h"
 
-enum { NEIGHBOURS_MAX = 6 * GARMENT_TRIANGLES_MAX };
+enum { AHEAD, PASSED, STOPPED }; /* a particle, as the front sees it */
 
-struct heap_item {
-	float distance_m;
-	int particle;
+/* The march of distance over the cloth (dress_drag_front.c). */
+struct front {
+	const struct cloth *cloth;
+	int *first;   /* per particle + 2: its corners are corner[first[v] .. first[v + 1]) */
+	int *corner;  /* triangle * 4 + corner */
+	float *way_m; /* 3 per triangle: from corner k to the next along the body; below 0: none */
+	uint8_t *state;
+	struct giver *giver; /* per particle */
+	float *distance_m;   /* of the march under way */
+	int *place;          /* per particle that waits: in the heap */
+	uint64_t *heap;      /* of keys: distance, then particle */
+	int waiting;
 };
 
 /* What a particle hands on, in one cache line. */
@@ -20,23 +29,30 @@ struct hand {
 };
 
 struct drag_scratch {
-	int *first; /* per particle + 1: its neighbours */
-	int *end;   /* per particle: neighbour[first .. end) */
-	int *neighbour;
-	float *way_m;  /* per neighbour: how far it is along the body */
-	float *rest_m; /* per neighbour: how long the edge is on the flat piece */
-	struct heap_item *heap;
-	int heap_count;
+	struct front front;
 	float *pin_distance_m;
-	uint8_t *settled;
 	uint8_t *blocked;
 	uint8_t *gripped;
 	struct hand *hand; /* per particle */
 	struct v3 *left_m; /* where the last move left it */
+	int near_count;
+	int *near_triangle;  /* round the hand: their stretch slows it */
+	float *near_stretch; /* when the hand took hold */
 };
 
-/* Who hands the motion on to whom, and what the pins leave of it, seen from a grabbed triangle:
- * fills order, distance_m, share and from of the drag (dress_drag_graph.c). */
+/* Measures the cloth's triangles along the body. */
+void front_build(struct front *front, const struct cloth *cloth);
+
+/* A march: begin, sources, march. `distance_m` (per particle) is filled, -1 where the front did not
+ * come; so are the front's givers, and `order`, when given, with the particles by distance. The
+ * front does not go on from `blocked` particles but for those at the source. Returns how many
+ * particles it came to. */
+void front_begin(struct front *front, float *distance_m);
+void front_add_source(struct front *front, int triangle, const float weight[3]);
+int front_march(struct front *front, int *order, const uint8_t *blocked);
+
+/* Who hands the motion on to whom, and what the pins leave of it, seen from the grabbed point:
+ * fills order, distance_m, giver and share of the drag (dress_drag_graph.c). */
 void drag_build_graph(struct drag *drag, const struct pin *pins, int pin_count);
 
 #endif
