@@ -132,11 +132,49 @@ static void put_measure(json_t *report, const struct measure *measure)
 	put_real(report, "seam_gap_mm_max", (double)measure->seam_gap_mm_max);
 }
 
+static const char *const part_name[PART_COUNT] = {"trunk",     "head",     "arm_left",
+						  "arm_right", "leg_left", "leg_right"};
+
+static void diagnose_girth(json_t *diagnoses, const struct girth *girth, const char *part)
+{
+	char text[200];
+	snprintf(text, sizeof text,
+		 "Too small: the garment is %.0f mm round the %s %.2f m up, where %.0f mm are "
+		 "needed.",
+		 (double)girth->cloth_m * 1e3, part, (double)girth->at_m.y,
+		 (double)girth->body_m * 1e3);
+	json_array_append_new(diagnoses, json_pack("{s:s, s:[], s:s}", "kind", "too_small", "marks",
+						   "text", text));
+}
+
+/* How tight the garment is round each part, and what is said of it where it is too small. */
+static void put_girths(json_t *report, const struct measure *measure)
+{
+	double least = 0.0;
+	json_t *girths = json_array();
+	for (int part = 0; part < PART_COUNT; part++) {
+		const struct girth *girth = &measure->girth[part];
+		if (girth->body_m <= 0.0f)
+			continue;
+		double ratio = (double)(girth->cloth_m / girth->body_m);
+		least = least > 0.0 && least < ratio ? least : ratio;
+		json_array_append_new(
+			girths, json_pack("{s:s, s:f, s:f, s:f, s:[f, f, f]}", "part",
+					  part_name[part], "garment_m", (double)girth->cloth_m,
+					  "body_m", (double)girth->body_m, "ratio", ratio, "at_m",
+					  (double)girth->at_m.x, (double)girth->at_m.y,
+					  (double)girth->at_m.z));
+		if (ratio < (double)girth_enough)
+			diagnose_girth(json_object_get(report, "diagnoses"), girth,
+				       part_name[part]);
+	}
+	put_real(report, "girth_ratio_min", least);
+	json_object_set_new(report, "girths", girths);
+}
+
 /* Which bones pass through which rim of the garment: how one knows that an arm is in its sleeve. */
 static void put_loops(json_t *report, const struct measure *measure)
 {
-	static const char *const part_name[PART_COUNT] = {"trunk",     "head",     "arm_left",
-							  "arm_right", "leg_left", "leg_right"};
 	json_t *loops = json_array();
 	for (int l = 0; l < measure->loop_count; l++) {
 		const struct loop_link *link = &measure->loop[l];
@@ -185,6 +223,7 @@ bool report_write(const struct session *session, struct frame_clock *clock, stru
 	put_work(report, session, clock);
 	put_measure(report, measure);
 	put_wrap(report, &session->wrap);
+	put_girths(report, measure);
 	put_loops(report, measure);
 	char *text = json_dumps(report, JSON_INDENT(2) | JSON_REAL_PRECISION(REPORT_REAL_DIGITS));
 	json_decref(report);

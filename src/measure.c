@@ -16,6 +16,13 @@ struct measure_scratch *measure_init(struct arena *arena)
 	s->walked = ARENA_ARRAY(arena, uint8_t, MEASURE_EDGES_MAX);
 	s->loop = ARENA_ARRAY(arena, int, MEASURE_EDGES_MAX + 1);
 	s->rim_m = ARENA_ARRAY(arena, struct v3, MEASURE_EDGES_MAX + 1);
+	s->cut = ARENA_ARRAY(arena, uint8_t, GARMENT_TRIANGLES_MAX);
+	s->body_cut = ARENA_ARRAY(arena, uint8_t, BODY_TRIANGLES_MAX);
+	s->curve_m = ARENA_ARRAY(arena, struct v2, GARMENT_TRIANGLES_MAX);
+	for (int d = 0; d < GIRTH_DIRECTIONS; d++) {
+		float angle = 2.0f * PI_F * (float)d / (float)GIRTH_DIRECTIONS;
+		s->direction[d] = (struct v2){angle_cos(angle), angle_sin(angle)};
+	}
 	return s;
 }
 
@@ -195,4 +202,5 @@ void measure_garment(struct measure *measure, const struct cloth *cloth, struct 
 	measure_strain(measure, cloth, s);
 	measure_self(measure, cloth, s);
 	measure_loops(measure, cloth, s);
+	measure_girths(measure, cloth, s);
 }

@@ -26,6 +26,18 @@ struct loop_link {
 	int linking[PART_COUNT];
 };
 
+/* The closed curve of the garment that is tightest round a part of the body, where it rests. */
+struct girth {
+	float cloth_m; /* its length on the flat cloth */
+	float body_m;  /* of the convex hull of the body's section inside it; 0: no curve was found
+			*/
+	struct v3 at_m;
+};
+
+/* A garment with a girth of less than this share of the body's is too small: there strain says
+ * nothing about the drape. */
+static const float girth_enough = 0.97f;
+
 struct measure {
 	int vertices, triangles; /* that were measured: laid by the wrap, welded ones once */
 	int vertices_inside;     /* deeper than 0.1 mm */
@@ -43,6 +55,7 @@ struct measure {
 	bool head_through_collar;         /* a loop links the head and no arm */
 	int arms_in_sleeves;              /* arms that have a loop which links nothing else */
 	int legs_in_legs;
+	struct girth girth[PART_COUNT]; /* the trunk's, when bones of several parts are inside */
 };
 
 /* Exact queries at every vertex, edge and triangle: far too slow for a frame. */

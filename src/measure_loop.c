@@ -256,6 +256,7 @@ void measure_loops(struct measure *measure, const struct cloth *cloth, struct me
 			continue;
 		link_loop(cloth, s, count, &link);
 		keep_loop(measure, &link);
+		measure_girth_at_rim(measure, cloth, s, count);
 	}
 	for (int l = 0; l < measure->loop_count; l++) {
 		const int *linking = measure->loop[l].linking;

@@ -384,6 +384,39 @@ static void test_chains(void)
 	}
 }
 
+/* A tube of known girth round a post of known girth, at rest, stretched, aslant, beside it. */
+static void test_girth(void)
+{
+	const struct girth *girth = &measure.girth[PART_ARM_LEFT];
+	const struct v3 up = {0.0f, 1.0f, 0.0f}, middle = {0.0f, 0.0f, 0.0f};
+	shape_box(&shape, 0.05f, 0.5f, 0.03f);
+	CHECK(!body_build(&body, shape.position_m, shape.vertex_count, shape.triangle,
+			  shape.triangle_count));
+	body.bone_count = 1;
+	body.bone[0] = (struct bone){PART_ARM_LEFT, {0.0f, -0.4f, 0.0f}, {0.0f, 0.4f, 0.0f}, 0.04f};
+	make_grid(true);
+	lay_tube(middle, up, 0.065f);
+	CHECK_NEAR(girth->cloth_m, pitch_m * COLUMNS, 1e-3);
+	CHECK_NEAR(girth->body_m, 2.0f * (0.1f + 0.06f), 1e-3);
+	CHECK(float_abs(girth->at_m.y) < 0.5f * pitch_m * ROWS);
+	lay_tube(middle, up, 0.13f);
+	CHECK_NEAR(girth->cloth_m, pitch_m * COLUMNS, 1e-3);
+	CHECK_NEAR(girth->body_m, 2.0f * (0.1f + 0.06f), 1e-3);
+	for (int part = 0; part < PART_COUNT; part++)
+		CHECK(part == PART_ARM_LEFT || measure.girth[part].body_m == 0.0f);
+	/* leaning by 1 in 2: the rims' own planes are tightest, where the post is 0.06 * 1.118 deep
+	 */
+	lay_tube(middle, (struct v3){0.0f, 1.0f, 0.5f}, 0.1f);
+	CHECK_NEAR(girth->cloth_m / girth->body_m, 0.4 / (2.0 * (0.1 + 0.06708)), 0.002);
+	lay_tube((struct v3){0.05f, 0.0f, 0.0f}, up, 0.065f); /* half of the post is outside */
+	CHECK(girth->body_m == 0.0f);
+	lay_tube((struct v3){0.3f, 0.0f, 0.0f}, up, 0.065f);
+	CHECK(girth->body_m == 0.0f);
+	make_grid(false); /* not sewn */
+	lay_tube(middle, up, 0.065f);
+	CHECK(girth->body_m == 0.0f);
+}
+
 static void test_nothing(void)
 {
 	cloth_reset(&cloth, NULL, &body);
@@ -415,6 +448,7 @@ int main(void)
 	test_seam_gap();
 	test_chains();
 	test_figure();
+	test_girth();
 	test_nothing();
 	free(memory);
 	return test_end();
