@@ -5,6 +5,7 @@
 # make fuzz         every fuzzer for FUZZ_SECONDS (10) each
 # make hash-matrix  the bundled tape's hash over compilers, levels, sanitizers and aarch64
 # make tremor       the bundled tape with 20 trembling hands
+# make matrix       every real garment on every real body, judged and drawn (tests/matrix.sh)
 # make format       clang-format everything; format-check only looks
 # make clean        remove build/
 #
@@ -62,7 +63,7 @@ TESTS := $(patsubst %.c,$(B)/%,$(wildcard tests/test_*.c))
 TEST_SCRIPTS := $(filter-out $(if $(filter sanitize,$(config)),tests/test_replay.sh),$(wildcard tests/test_*.sh))
 BENCH := $(patsubst %.c,$(B)/%,$(wildcard tests/bench_*.c))
 FUZZ  := $(patsubst %.c,$(B)/%,$(wildcard tests/fuzz_*.c))
-TOOLS := $(patsubst %.c,$(B)/%,$(wildcard tests/hand.c tests/measure_sections.c))
+TOOLS := $(patsubst %.c,$(B)/%,$(wildcard tests/hand.c tests/measure_sections.c tests/drape.c tests/contact.c))
 ALL   := $(LIB) $(MAIN) $(call sources,tests)
 DATA  := $(wildcard tests/tapes/* tests/journals/*)
 
@@ -162,6 +163,9 @@ hash-matrix:
 tremor: $(B)/kitsuke
 	@KITSUKE=$(B)/kitsuke tests/check-tremor.sh
 
+matrix: $(B)/kitsuke $(B)/tests/drape $(B)/tests/contact
+	@KITSUKE=$(B)/kitsuke TOOLS=$(B)/tests tests/matrix.sh $(build)/matrix
+
 format:
 	$(CLANG_FORMAT) -i $(wildcard */*.[ch])
 
@@ -174,7 +178,7 @@ help:
 clean:
 	rm -rf $(build)
 
-.PHONY: all run check tests programs check-layers check-imports bench bench-peer fuzz fuzzers hash-matrix tremor format \
+.PHONY: all run check tests programs check-layers check-imports bench bench-peer fuzz fuzzers hash-matrix tremor matrix format \
         format-check help clean
 .SECONDARY:
 -include $(patsubst %.c,$(B)/%.d,$(ALL))

@@ -19,14 +19,14 @@ static void help_commands(void)
 	     "  kitsuke dress JOURNAL [--obj FILE] [--glb FILE] [--picture FILE] [--report FILE]\n"
 	     "                 [--body FILE] [--body-obj FILE] [--progress]\n"
 	     "                                runs a document without input devices\n"
-	     "  kitsuke import PATTERN --journal FILE\n"
+	     "  kitsuke import PATTERN [--marks FILE] --journal FILE\n"
 	     "                                reads a pattern file into a document\n"
 	     "  kitsuke check FILE...         are bodies, patterns, journals, tapes, boards "
 	     "sound?\n"
 	     "  kitsuke record --out TAPE     records attached tablets and buttons\n"
 	     "  kitsuke devices [--descriptor FILE]\n"
 	     "                                what is attached, and what a descriptor yields\n"
-	     "  kitsuke help [journal|landmarks|tape|board|limits]\n"
+	     "  kitsuke help [journal|landmarks|marks|tape|board|limits]\n"
 	     "\n"
 	     "Exit status: 0 done, 1 the input is at fault, 2 usage, 3 the machine is at fault.");
 }
@@ -112,6 +112,39 @@ static void help_landmarks(void)
 	     "  mark-at 2 front-centre 0 1 0.02 0.09\n");
 	for (int i = 0; i < LANDMARK_COUNT; i++)
 		printf("  %-24s %s\n", landmark_name[i], landmark_stops[i]);
+}
+
+/* ---- marks ---- */
+
+static void help_marks(void)
+{
+	puts("A file of marks says once for a garment's design where it is worn, whatever its "
+	     "size\n"
+	     "and whoever wears it: on the cloth between named places of the pieces, on the body\n"
+	     "along a landmark (`kitsuke help landmarks`). A line is a mark:\n"
+	     "\n"
+	     "  PIECE PLACE PLACE ... on LANDMARK [FROM TO]\n"
+	     "\n"
+	     "  # a comment line\n"
+	     "  front neck/neck_m cfHem on front-centre\n"
+	     "  yoke cbNeck cbYoke + back cbYoke cbHem on back-centre\n"
+	     "  front.R fork .. waistIn on front-centre 2 0\n"
+	     "\n"
+	     "A PLACE is a name in the pattern file's `named_vertices`. A/B lies halfway from A "
+	     "to\n"
+	     "B, A/B/0.3 after that share of the way, A/B/1.1 beyond B. `up` and `down` go "
+	     "straight\n"
+	     "from the place before to the far rim. The line is straight from place to place, or\n"
+	     "along the outline, the shorter way round, with `..` between them. Behind a + it "
+	     "goes\n"
+	     "on in another piece, as though both lay end to end. Cloth and landmark meet by "
+	     "their\n"
+	     "distance from the start, so a line may begin beyond the cloth and end where it "
+	     "likes.\n"
+	     "FROM and TO are stops of the landmark; without them it is taken whole.\n"
+	     "\n"
+	     "  kitsuke import shirt.garment.json --marks shirt.marks --journal shirt.kitsuke\n"
+	     "  kitsuke dress shirt.kitsuke --body anyone.obj --picture shirt.png");
 }
 
 /* ---- limits ---- */
@@ -241,6 +274,8 @@ int command_help(int argc, char **argv)
 		help_journal();
 	else if (argc <= 2 && strcmp(topic, "landmarks") == 0)
 		help_landmarks();
+	else if (argc <= 2 && strcmp(topic, "marks") == 0)
+		help_marks();
 	else if (argc <= 2 && strcmp(topic, "tape") == 0)
 		help_tape();
 	else if (argc <= 2 && strcmp(topic, "board") == 0)
@@ -248,7 +283,7 @@ int command_help(int argc, char **argv)
 	else if (argc <= 2 && strcmp(topic, "limits") == 0)
 		return help_limits();
 	else {
-		fputs("usage: kitsuke help [commands|journal|landmarks|tape|board|limits]\n",
+		fputs("usage: kitsuke help [commands|journal|landmarks|marks|tape|board|limits]\n",
 		      stderr);
 		return STATUS_USAGE;
 	}

@@ -1,7 +1,10 @@
-/* kitsuke import PATTERN --journal FILE: a pattern file becomes a document. */
+/* kitsuke import PATTERN --journal FILE: a pattern file becomes a document, with marks (--marks)
+ * one that dresses whoever is named. */
 #include "commands.h"
 
 #include "format_garment.h"
+#include "format_marks.h"
+#include "body_landmark.h"
 #include "journal.h"
 #include "options.h"
 #include "store.h"
@@ -9,7 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static const char usage[] = "usage: kitsuke import PATTERN --journal FILE\n";
+static const char usage[] = "usage: kitsuke import PATTERN [--marks FILE] --journal FILE\n";
 
 static void put_edit(FILE *out, const struct edit *edit, char line[JOURNAL_LINE_MAX])
 {
@@ -65,8 +68,38 @@ static void put_seams(FILE *out, const struct pattern *pattern, const int number
 	}
 }
 
+static void put_marks(FILE *out, const struct design_marks *marks, const int number[PIECES_MAX],
+		      struct edit *edit, char line[JOURNAL_LINE_MAX])
+{
+	for (int m = 0; m < marks->count; m++) {
+		const struct design_mark *mark = &marks->mark[m];
+		memset(edit, 0, sizeof *edit);
+		edit->kind = EDIT_MARK_CLOTH;
+		edit->i[0] = m + 1;
+		edit->i[1] = number[mark->piece];
+		edit->point_count = mark->point_count;
+		for (int i = 0; i < mark->point_count; i++)
+			edit->point[i] = (struct v3){mark->point_mm[i].x, mark->point_mm[i].y,
+						     0.0f};
+		put_edit(out, edit, line);
+		memset(edit, 0, sizeof *edit);
+		edit->kind = EDIT_MARK_AT;
+		memcpy(edit->name, mark->landmark, NAME_BYTES_MAX);
+		edit->i[0] = m + 1;
+		edit->f[0] = mark->from;
+		edit->f[1] = mark->to;
+		put_edit(out, edit, line);
+	}
+	for (int m = 0; m < 2 && marks->count > 0; m++) {
+		memset(edit, 0, sizeof *edit);
+		edit->kind = m == 0 ? EDIT_WRAP : EDIT_SETTLE;
+		put_edit(out, edit, line);
+	}
+}
+
 /* The journal as text from malloc; NULL: no memory. */
-static char *write_document(const struct pattern *pattern, size_t *size)
+static char *write_document(const struct pattern *pattern, const struct design_marks *marks,
+			    size_t *size)
 {
 	static struct edit edit;
 	static char line[JOURNAL_LINE_MAX];
@@ -78,29 +111,90 @@ static char *write_document(const struct pattern *pattern, size_t *size)
 	fputs(JOURNAL_HEADER, out);
 	put_pieces(out, pattern, number, &edit, line);
 	put_seams(out, pattern, number, &edit, line);
+	put_marks(out, marks, number, &edit, line);
 	if (fclose(out) == 0)
 		return text;
 	free(text);
 	return NULL;
 }
 
-static int import(const char *path, const char *journal)
+/* The last stop of a landmark: as many as its list has commas. */
+static float last_stop(enum landmark landmark)
+{
+	int count = 0;
+	for (const char *at = landmark_stops[landmark]; *at; at++)
+		count += *at == ',';
+	return (float)count;
+}
+
+/* Marks without FROM and TO take the whole landmark. */
+static bool find_landmarks(struct design_marks *marks, char wrong[200])
+{
+	for (int m = 0; m < marks->count; m++) {
+		struct design_mark *mark = &marks->mark[m];
+		enum landmark landmark = landmark_find(mark->landmark);
+		if (landmark == LANDMARK_COUNT) {
+			snprintf(wrong, 200, "no landmark is called %s; see kitsuke help journal",
+				 mark->landmark);
+			return false;
+		}
+		if (mark->from == mark->to) {
+			mark->from = 0.0f;
+			mark->to = last_stop(landmark);
+		}
+	}
+	return true;
+}
+
+/* The marks of a file; none when there is no file. `garment` is the pattern file's text. */
+static bool read_marks(struct design_marks *marks, const char *path, const struct pattern *pattern,
+		       const char *garment, size_t garment_size, char fault[FAULT_BYTES])
+{
+	static struct garment_places places;
+	char wrong[200];
+	size_t size;
+	memset(marks, 0, sizeof *marks);
+	if (!path)
+		return true;
+	char *text = store_read(path, &size, fault);
+	if (!text)
+		return false;
+	format_places_read(&places, garment, garment_size);
+	bool read = format_marks_read(marks, pattern, &places, text, size, wrong) &&
+		    find_landmarks(marks, wrong);
+	free(text);
+	if (!read)
+		snprintf(fault, FAULT_BYTES, "%.250s: %s", path, wrong);
+	return read;
+}
+
+static bool read_pattern(struct pattern *pattern, struct design_marks *marks, const char *path,
+			 const char *marks_path, char fault[FAULT_BYTES])
+{
+	size_t size;
+	char wrong[200];
+	char *text = store_read(path, &size, fault);
+	if (!text)
+		return false;
+	bool read = format_garment_read(pattern, text, size, wrong);
+	if (!read)
+		snprintf(fault, FAULT_BYTES, "%.250s: %s", path, wrong);
+	read = read && read_marks(marks, marks_path, pattern, text, size, fault);
+	free(text);
+	return read;
+}
+
+static int import(const char *path, const char *marks_path, const char *journal)
 {
 	static struct pattern pattern;
+	static struct design_marks marks;
 	size_t size;
-	char fault[FAULT_BYTES], wrong[200];
-	char *text = store_read(path, &size, fault);
-	if (!text) {
+	char fault[FAULT_BYTES];
+	if (!read_pattern(&pattern, &marks, path, marks_path, fault)) {
 		fprintf(stderr, "kitsuke import: %s\n", fault);
 		return STATUS_INPUT;
 	}
-	bool read = format_garment_read(&pattern, text, size, wrong);
-	free(text);
-	if (!read) {
-		fprintf(stderr, "kitsuke import: %s: %s\n", path, wrong);
-		return STATUS_INPUT;
-	}
-	char *document = write_document(&pattern, &size);
+	char *document = write_document(&pattern, &marks, &size);
 	snprintf(fault, sizeof fault, "not enough memory for the journal");
 	bool written = document && store_write(journal, document, size, fault);
 	free(document);
@@ -111,13 +205,14 @@ static int import(const char *path, const char *journal)
 
 int command_import(int argc, char **argv)
 {
-	const char *journal = NULL, *files[OPTION_FILES_MAX];
+	const char *journal = NULL, *marks = NULL, *files[OPTION_FILES_MAX];
 	int count;
 	const struct option_value known[] = {{"--journal", NULL, &journal, NULL},
+					     {"--marks", NULL, &marks, NULL},
 					     {NULL, NULL, NULL, NULL}};
 	if (!options_read(argc, argv, known, files, &count) || count != 1 || !journal) {
 		fputs(usage, stderr);
 		return STATUS_USAGE;
 	}
-	return import(files[0], journal);
+	return import(files[0], marks, journal);
 }

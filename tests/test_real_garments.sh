@@ -1,6 +1,6 @@
 #!/bin/sh
-# Garments and bodies that nobody here made: a real pattern, imported, marked by hand, wrapped on a
-# real body, and judged by the report.
+# Garments and bodies that nobody here made: a real pattern, imported with its design's marks, wrapped
+# on a real body, and judged by the report and by an independent judge (tests/drape.c).
 . tests/shell.sh
 data=../shared/data
 [ -d "$data/patterns/seams" ] || {
@@ -23,10 +23,14 @@ equal() {
 
 # dress PATTERN MARKS BODY
 dress() {
-  "$kitsuke" import "$data/patterns/seams/$1.garment.json" --journal "$folder/$1.kitsuke" || fail "$1: not imported"
-  cat "tests/marks/$2" >>"$folder/$1.kitsuke"
+  "$kitsuke" import "$data/patterns/seams/$1.garment.json" --marks "tests/marks/$2" --journal "$folder/$1.kitsuke" ||
+    fail "$1: not imported"
   "$kitsuke" dress "$folder/$1.kitsuke" --body "$data/bodies/$3.obj" --report "$folder/report.json" --obj "$folder/$1.obj" ||
     fail "$1: not dressed"
+  "${kitsuke%kitsuke}tests/drape" "$folder/$1.obj" "$data/bodies/$3.obj" >"$folder/judge.json" || fail "$1: not judged"
+  for key in vertices_inside midpoints_inside centres_inside edge_crossings_body; do
+    grep -q "\"$key\": 0," "$folder/judge.json" || fail "$1: $key: the judge says $(cat "$folder/judge.json")"
+  done
 }
 
 dress teagan_cisFemaleAdult34 teagan.marks mh_female_young_average

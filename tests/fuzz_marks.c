@@ -1,0 +1,40 @@
+/* Any text as marks of a garment with a few places; any bytes as a garment's places. */
+#include "format_marks.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+	static struct pattern pattern;
+	static struct garment_places places, any;
+	static struct design_marks marks;
+	static const struct v2 corner[4] = {
+		{0.0f, 0.0f}, {300.0f, 0.0f}, {300.0f, 500.0f}, {0.0f, 500.0f}};
+	char fault[200];
+	if (!pattern.piece[0].used) {
+		struct piece *piece = &pattern.piece[0];
+		piece->used = true;
+		memcpy(piece->name, "front", 6);
+		piece->point_count = places.count = 4;
+		for (int i = 0; i < 4; i++) {
+			piece->point_mm[i] = places.place[i].point_mm = corner[i];
+			piece->corner[i] = true;
+			places.place[i].name[0] = (char)('a' + i);
+		}
+	}
+	format_places_read(&any, (const char *)data, size);
+	MUST(any.count >= 0 && any.count <= PLACES_MAX);
+	if (!format_marks_read(&marks, &pattern, &places, (const char *)data, size, fault)) {
+		MUST(!strncmp(fault, "line ", 5));
+		return 0;
+	}
+	for (int m = 0; m < marks.count; m++) {
+		const struct design_mark *mark = &marks.mark[m];
+		MUST(mark->point_count >= 2 && mark->point_count <= MARK_POINTS_MAX);
+		MUST(memchr(mark->landmark, 0, NAME_BYTES_MAX));
+		for (int i = 0; i < mark->point_count; i++)
+			MUST(float_abs(mark->point_mm[i].x) < 1e6f &&
+			     float_abs(mark->point_mm[i].y) < 1e6f);
+	}
+	return 0;
+}
