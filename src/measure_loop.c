@@ -115,12 +115,13 @@ static struct v3 beyond(const struct body *body, enum body_part part, float far_
 int measure_chain(const struct body *body, enum body_part part, struct v3 point_m[CHAIN_MAX])
 {
 	struct chain chain = {0, point_m};
-	if (body->bone_count == 0)
+	bool leg = part == PART_LEG_LEFT || part == PART_LEG_RIGHT;
+	enum body_part outer = part == PART_TRUNK ? PART_HEAD : part;
+	int bone[BODY_BONES_MAX];
+	if (list_bones(body, outer, bone) == 0 || (leg && list_bones(body, PART_HEAD, bone) == 0))
 		return 0;
 	struct v3 centre_m = v3_lerp(body->low_m, body->high_m, 0.5f);
 	float far_m = 6.0f * (body->high_m.y - body->low_m.y);
-	bool leg = part == PART_LEG_LEFT || part == PART_LEG_RIGHT;
-	enum body_part outer = part == PART_TRUNK ? PART_HEAD : part;
 	chain_add(&chain, beyond(body, outer, far_m));
 	add_inward(&chain, body, outer);
 	add_spine(&chain, body, leg);

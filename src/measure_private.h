@@ -72,7 +72,7 @@ bool measure_triangles_cross(const struct v3 a[3], const struct v3 b[3]);
 float measure_linking(const struct v3 *a, int a_count, const struct v3 *b, int b_count);
 
 /* The closed curve that runs through a part's bones: measure.h describes its way. Returns the
- * number of points, 0 for a body without bones. */
+ * number of points, 0 for a body without bones there. */
 enum { CHAIN_MAX = BODY_BONES_MAX + 16 };
 int measure_chain(const struct body *body, enum body_part part, struct v3 point_m[CHAIN_MAX]);
 
