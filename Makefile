@@ -2,6 +2,7 @@
 # make run          install what is missing, build, and run the main job
 # make check        install what is missing, build, and pass the tests and the layer checks
 # make bench        microseconds and work units per stage of a frame (tests/bench_frame.c), and of parts
+# make bench-peers  kitsuke beside Bullet, Embree and CGAL; installs them; writes build/bench-peers.json
 # make fuzz         every fuzzer for FUZZ_SECONDS (10) each
 # make hash-matrix  the bundled tape's hash over compilers, levels, sanitizers and aarch64
 # make tremor       the bundled tape with 20 trembling hands
@@ -144,13 +145,21 @@ programs: $(TESTS) $(BENCH) $(TOOLS)
 bench: $(BENCH) $(TOOLS)
 	@for bench in $(BENCH); do $$bench || exit; done
 
-# What others need for the same mesh. Not part of anything else: CGAL is large.
-bench-peer: $(B)/tests/bench_mesh
-	@echo '#include <CGAL/Delaunay_mesher_2.h>' | $(CXX) -E -x c++ - >/dev/null 2>&1 || \
-		{ echo 'bench-peer: CGAL is missing; install libcgal-dev'; exit 1; }
-	$(CXX) -O2 -DNDEBUG tests/peer_mesh_cgal.cpp -o $(B)/tests/peer_mesh_cgal -lgmp
-	$(B)/tests/peer_mesh_cgal
-	$(B)/tests/bench_mesh
+# kitsuke beside its peers, on garments of up to 50,000 vertices: a table, and bench-peers.json.
+bench-peers:
+	@firmware-host/setup peers
+	$(SUBMAKE) build=$(build)/peers CFLAGS='$(CFLAGS) -DGARMENT_VERTICES_MAX=53248' peers
+	$(build)/peers/$(config)/tests/peers $(ARGS) $(build)/bench-peers.json
+
+PEERS := $(call objects,$(wildcard tests/peers*.c))
+PEER_OBJECTS := $(patsubst %.cpp,$(B)/%.o,$(wildcard tests/peer_*.cpp))
+PEER_LIBS = $(shell pkg-config --libs bullet) $(patsubst /usr/include/embree%,-lembree%,$(wildcard /usr/include/embree[34])) -lgmp
+peers: $(B)/tests/peers
+$(B)/tests/peers: $(PEERS) $(PEER_OBJECTS) $(B)/kitsuke.a
+	$(call SHORT,link)$(CXX) $^ $(LDFLAGS) -Wl,--as-needed $(PEER_LIBS) -lm -o $@
+$(B)/tests/%.o: tests/%.cpp Makefile
+	@mkdir -p $(@D)
+	$(call SHORT,c++,$<)$(CXX) $(INC_tests) -O2 -DNDEBUG -MMD -MP $(shell pkg-config --cflags bullet) -c $< -o $@
 
 fuzz:
 	$(SUBMAKE) config=fuzz CC=clang fuzzers
@@ -178,7 +187,7 @@ help:
 clean:
 	rm -rf $(build)
 
-.PHONY: all run check tests programs check-layers check-imports bench bench-peer fuzz fuzzers hash-matrix tremor matrix format \
-        format-check help clean
+.PHONY: all run check tests programs check-layers check-imports bench bench-peers peers fuzz fuzzers hash-matrix tremor \
+        matrix format format-check help clean
 .SECONDARY:
--include $(patsubst %.c,$(B)/%.d,$(ALL))
+-include $(patsubst %.c,$(B)/%.d,$(ALL)) $(PEER_OBJECTS:.o=.d)

@@ -1,5 +1,5 @@
-// The same outline as bench_mesh's shirt front, meshed by CGAL's Mesh_2: what others need for it.
-// Built by `make bench-peer` alone; needs libcgal-dev.
+// The shirt front of bench_mesh, meshed by CGAL's Mesh_2.
+#if __has_include(<CGAL/Delaunay_mesher_2.h>)
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_mesh_face_base_2.h>
 #include <CGAL/Delaunay_mesh_size_criteria_2.h>
@@ -8,10 +8,10 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <vector>
+
+#include "peers.h"
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Vertex = CGAL::Delaunay_mesh_vertex_base_2<Kernel>;
@@ -48,42 +48,41 @@ static double smallest_angle(const Mesh::Face_handle &face)
 	return least;
 }
 
-static void bench(double size)
+// The criterion is an edge length; this one gives about so many triangles on the shirt front.
+static double edge_for(int triangles)
 {
-	std::vector<double> ms;
-	int triangles = 0;
-	double least = 180, mean = 0;
-	for (int repeat = 0; repeat < 9; repeat++) {
-		auto start = std::chrono::steady_clock::now();
-		Mesh mesh;
-		std::vector<Mesh::Vertex_handle> handle;
-		for (const auto &point : shirt())
-			handle.push_back(mesh.insert(point));
-		for (size_t i = 0; i < handle.size(); i++)
-			mesh.insert_constraint(handle[i], handle[(i + 1) % handle.size()]);
-		CGAL::refine_Delaunay_mesh_2(mesh, Criteria(0.125, size));
-		std::chrono::duration<double, std::milli> time =
-			std::chrono::steady_clock::now() - start;
-		ms.push_back(time.count());
-		triangles = 0;
-		least = 180;
-		mean = 0;
-		for (auto face : mesh.finite_face_handles())
-			if (face->is_in_domain()) {
-				double angle = smallest_angle(face);
-				triangles++;
-				mean += angle;
-				least = std::min(least, angle);
-			}
-	}
-	std::sort(ms.begin(), ms.end());
-	std::printf("CGAL Mesh_2, shirt front %5d triangles  median %6.2f ms, least %6.2f  "
-		    "smallest angle %4.1f, mean %4.1f\n",
-		    triangles, ms[4], ms[0], least, mean / triangles);
+	const double area = 402000;
+	return 1.95 * std::sqrt(area / triangles);
 }
 
-int main()
+bool peer_cgal_mesh(int triangles, mesh_figures *figures)
 {
-	for (double size : {36.0, 25.0, 18.0})
-		bench(size);
+	*figures = {};
+	double start = peers_ms();
+	Mesh mesh;
+	std::vector<Mesh::Vertex_handle> handle;
+	for (const auto &point : shirt())
+		handle.push_back(mesh.insert(point));
+	for (size_t i = 0; i < handle.size(); i++)
+		mesh.insert_constraint(handle[i], handle[(i + 1) % handle.size()]);
+	CGAL::refine_Delaunay_mesh_2(mesh, Criteria(0.125, edge_for(triangles)));
+	figures->ms = peers_ms() - start;
+	figures->angle_min_deg = 180;
+	for (auto face : mesh.finite_face_handles())
+		if (face->is_in_domain()) {
+			double angle = smallest_angle(face);
+			figures->triangles++;
+			figures->angle_mean_deg += angle;
+			figures->angle_min_deg = std::min(figures->angle_min_deg, angle);
+		}
+	figures->angle_mean_deg /= figures->triangles;
+	return true;
 }
+#else
+#include "peers.h"
+
+bool peer_cgal_mesh(int, mesh_figures *)
+{
+	return false;
+}
+#endif

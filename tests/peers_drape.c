@@ -1,0 +1,153 @@
+/* A frame's price on a poncho: ours against Bullet's, from two thousand to fifty thousand vertices,
+ * and the kernels on it. */
+#include "cloth_private.h"
+#include "peers_poncho.h"
+#include "peers_rows.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { SIZES = 3, PEER_SIZES = 2, LAPS = 40 };
+
+static const int vertices_wanted[SIZES] = {2056, 10104, 49608};
+
+static void time_frames(struct drape *drape)
+{
+	drape->mean_ms = drape->worst_ms = 0.0;
+	for (int f = 1; f < DRAPE_FRAMES; f++) {
+		drape->mean_ms += drape->ms[f] / (DRAPE_FRAMES - 1);
+		drape->worst_ms = drape->ms[f] > drape->worst_ms ? drape->ms[f] : drape->worst_ms;
+	}
+}
+
+static void measure(const struct peers_cloth *flat, const struct peers_cloth *end,
+		    struct drape *drape)
+{
+	double sum = 0.0, most = 0.0;
+	for (int t = 0; t < flat->triangle_count; t++)
+		for (int k = 0; k < 3; k++) {
+			int a = flat->triangle[t].v[k], b = flat->triangle[t].v[(k + 1) % 3];
+			float rest = v3_distance(flat->position_m[a], flat->position_m[b]);
+			float now = v3_distance(end->position_m[a], end->position_m[b]);
+			double stretch = (double)float_max(now / rest - 1.0f, 0.0f);
+			sum += stretch;
+			most = stretch > most ? stretch : most;
+		}
+	drape->stretch_mean = sum / (3 * flat->triangle_count);
+	drape->stretch_max = most;
+	drape->low_m = drape->high_m = end->position_m[0].y;
+	for (int v = 1; v < end->vertex_count; v++) {
+		drape->low_m = float_min(drape->low_m, end->position_m[v].y);
+		drape->high_m = float_max(drape->high_m, end->position_m[v].y);
+	}
+}
+
+static void add(int vertices, const char *what, const char *unit, double figure, double target,
+		const char *peer, double peer_figure, double ratio_target)
+{
+	struct peers_row row = {.unit = unit,
+				.figure = figure,
+				.target = target,
+				.peer = peer,
+				.peer_figure = peer_figure,
+				.ratio_target = ratio_target};
+	snprintf(row.what, sizeof row.what, "%d vertices: %s", vertices, what);
+	peers_add(&row);
+}
+
+static void add_rows(int vertices, const struct drape *own, const struct drape *bullet)
+{
+	const struct drape none = {0}, *peer = bullet ? bullet : &none;
+	const char *name = bullet ? "Bullet" : NULL;
+	add(vertices, "frame", "ms", own->mean_ms, NO_TARGET, name, peer->mean_ms, 10.0);
+	add(vertices, "worst frame", "means", own->worst_ms / own->mean_ms, 1.5, name,
+	    peer->worst_ms / peer->mean_ms, NO_TARGET);
+	add(vertices, "mean stretch at rest", "%", 100.0 * own->stretch_mean, 1.0, name,
+	    100.0 * peer->stretch_mean, NO_TARGET);
+	add(vertices, "largest stretch at rest", "%", 100.0 * own->stretch_max, 15.0, name,
+	    100.0 * peer->stretch_max, NO_TARGET);
+	add(vertices, "lowest point at rest", "m", (double)own->low_m, NO_TARGET, name,
+	    (double)peer->low_m, NO_TARGET);
+	if (bullet && bullet->high_m < 1.2f)
+		fprintf(stderr, "peers: Bullet's poncho has fallen off\n");
+}
+
+/* Projections a second of the loops that a sweep spends most on. */
+static void kernels(struct cloth *cloth)
+{
+	double start = peers_ms(), shapes = 0.0, flats = 0.0;
+	for (int lap = 0; lap < LAPS; lap++)
+		shapes += (double)cloth_shape(cloth);
+	double shape_ms = peers_ms() - start;
+	start = peers_ms();
+	for (int lap = 0; lap < LAPS; lap++)
+		flats += (double)cloth_flatten(cloth);
+	double flat_ms = peers_ms() - start;
+	struct peers_row row = {.what = "triangle projections",
+				.unit = "M/s",
+				.better = MORE,
+				.figure = 1e-3 * shapes / shape_ms,
+				.target = 150.0};
+	peers_add(&row);
+	row = (struct peers_row){.what = "flatness projections",
+				 .unit = "M/s",
+				 .better = MORE,
+				 .figure = 1e-3 * flats / flat_ms,
+				 .target = 250.0};
+	peers_add(&row);
+}
+
+/* Nanoseconds a vertex and frame. */
+static double drape_size(struct session *session, const struct peers_body *body, int size,
+			 bool with_peers)
+{
+	static struct drape own, bullet;
+	struct peers_cloth flat, end, peer;
+	poncho_lay(session, vertices_wanted[size]);
+	poncho_take(session, &flat);
+	poncho_take(session, &peer);
+	bool peers = with_peers && size < PEER_SIZES && peer_bullet_drape(body, &peer, &bullet);
+	poncho_fall(session, &own);
+	poncho_take(session, &end);
+	time_frames(&own);
+	measure(&flat, &end, &own);
+	if (peers) {
+		time_frames(&bullet);
+		measure(&flat, &peer, &bullet);
+	}
+	add_rows(flat.vertex_count, &own, peers ? &bullet : NULL);
+	double ns = 1e6 * own.mean_ms / flat.vertex_count;
+	if (size == 1)
+		kernels(&session->cloth);
+	poncho_free(&flat);
+	poncho_free(&end);
+	poncho_free(&peer);
+	return ns;
+}
+
+void peers_drapes(const struct peers_body *body, bool with_peers)
+{
+	struct arena arena;
+	struct session *session = calloc(1, sizeof *session);
+	void *memory = malloc(KIOSK_MEMORY_BYTES);
+	MUST(session && memory);
+	arena_init(&arena, memory, KIOSK_MEMORY_BYTES);
+	session_init(session, &arena);
+	session->budget_units = 1L << 40; /* always ten sweeps */
+	MUST(!body_build(&session->body, body->position_m, body->vertex_count, body->triangle,
+			 body->triangle_count));
+	body_find_parts(&session->body);
+	double least = 1e9, most = 0.0;
+	for (int size = 0; size < SIZES; size++) {
+		double ns = drape_size(session, body, size, with_peers);
+		least = ns < least ? ns : least;
+		most = ns > most ? ns : most;
+	}
+	struct peers_row row = {.what = "price of a vertex, dearest over cheapest",
+				.unit = "times",
+				.figure = most / least,
+				.target = 1.5};
+	peers_add(&row);
+	free(session);
+	free(memory);
+}
