@@ -12,9 +12,12 @@ enum {
 	SLEEP_FRAMES = 300, /* and here the cloth sleeps in any case */
 	UNFOLDS_MAX = 4,    /* before it may sleep */
 	PUSH_SLICES = 16,
+	PAUSE_FRAMES = 6, /* a pen that rests so long lets the cloth relax under it */
+	EASE_FRAMES = 90, /* and so long it relaxes after the last touch */
 };
 
 static const float calm_m = 0.00002f; /* particles moved less than this in a frame, in the mean */
+static const float ease_least = 0.12f, ease_whole = 0.22f; /* strain_left: friction full, eased */
 
 void session_init(struct session *session, struct arena *arena)
 {
@@ -172,6 +175,20 @@ static void note_rest(struct session *session)
 	cloth_clean(&session->cloth);
 }
 
+/* Friction holds cloth that lies easy where it was put; no friction holds cloth that is stretched.
+ * The strain that a drag has built up flows out while the pen pauses and after it has let go. */
+static void ease_friction(const struct session *session, struct cloth_settings *settings)
+{
+	struct cloth_settings relax = cloth_settings_relax();
+	bool pulling = session->drag.active && session->pause_frames < PAUSE_FRAMES;
+	if (pulling || session->untouched_frames >= EASE_FRAMES)
+		return;
+	float ease = (session->strain_left - ease_least) / (ease_whole - ease_least);
+	ease = float_clamp(ease, 0.0f, 1.0f);
+	settings->friction += ease * (relax.friction - settings->friction);
+	settings->grip += ease * (relax.grip - settings->grip);
+}
+
 /* Cloth that nobody touches calms down: creases would tremble for ever under full momentum. */
 static struct cloth_settings settings_now(const struct session *session)
 {
@@ -181,6 +198,7 @@ static struct cloth_settings settings_now(const struct session *session)
 	int cooling = session->untouched_frames - COOL_FRAMES;
 	float warmth = 1.0f - (float)cooling / (float)(SLEEP_FRAMES - COOL_FRAMES);
 	settings.momentum *= float_clamp(warmth, 0.0f, 1.0f);
+	ease_friction(session, &settings);
 	return settings;
 }
 
@@ -192,6 +210,7 @@ static long advance_cloth(struct session *session)
 	memcpy(session->frame_start_m, cloth->position_m,
 	       (size_t)session->garment.vertex_count * sizeof(struct v3));
 	cloth->settings = settings_now(session);
+	session->pause_frames++;
 	if (session->drag.active)
 		units += drag_move(&session->drag, session->drag_target_m);
 	for (int sweep = 0; sweep < SWEEPS_A_FRAME_MAX && units < session->budget_units; sweep++) {

@@ -37,7 +37,9 @@ struct session {
 	struct wrap wrap;
 	struct drag drag;
 	struct v3 drag_target_m;
-	bool relaxing; /* RELAX is held */
+	struct v3 pause_at_m; /* near here the pen pauses, */
+	int pause_frames;     /* so long since it last pulled the cloth somewhere else */
+	bool relaxing;        /* RELAX is held */
 	enum session_job job;
 	struct garment_job *mesher;
 	struct undo *undo;

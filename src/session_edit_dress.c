@@ -202,6 +202,8 @@ static const char *grab(struct session *session, const struct edit *edit)
 	return NULL;
 }
 
+static const float pause_m = 0.002f; /* a pen that pauses trembles no farther than this */
+
 static const char *drag(struct session *session, const struct edit *edit)
 {
 	if (!session->drag.active)
@@ -210,6 +212,10 @@ static const char *drag(struct session *session, const struct edit *edit)
 	if (!(v3_length(target) < 100.0f))
 		return "the target is too far away";
 	session->drag_target_m = target;
+	if (v3_distance(target, session->pause_at_m) > pause_m) {
+		session->pause_at_m = target;
+		session->pause_frames = 0;
+	}
 	return NULL;
 }
 
