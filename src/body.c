@@ -2,8 +2,12 @@
 #include "body.h"
 
 #include "body_private.h"
+#include "body_tree.h"
 
-enum { NODES_MAX = 2 * BODY_TRIANGLES_MAX, LEAF_TRIANGLES = 2 };
+enum {
+	LEAF_TRIANGLES = LANES,
+	NODES_MAX = 2 * (BODY_TRIANGLES_MAX / LEAF_TRIANGLES + 1),
+};
 
 void body_init(struct body *body, struct arena *arena)
 {
@@ -18,9 +22,12 @@ void body_init(struct body *body, struct arena *arena)
 	body->part = ARENA_ARRAY(arena, uint8_t, BODY_TRIANGLES_MAX);
 	body->node = ARENA_ARRAY(arena, struct bvh_node, NODES_MAX);
 	body->node_triangle = ARENA_ARRAY(arena, int, BODY_TRIANGLES_MAX);
+	body->near = near_tree_init(arena);
+	body->clear_m = ARENA_ARRAY(arena, float, BODY_TRIANGLES_MAX);
 	struct body_scratch *scratch = ARENA_ARRAY(arena, struct body_scratch, 1);
 	scratch->centre_m = ARENA_ARRAY(arena, struct v3, BODY_TRIANGLES_MAX);
 	scratch->fill = ARENA_ARRAY(arena, int, BODY_VERTICES_MAX);
+	scratch->clear_m = ARENA_ARRAY(arena, float, BODY_VERTICES_MAX);
 	scratch->parts = parts_init(arena);
 	scratch->landmarks = landmark_init(arena);
 	body->scratch = scratch;
@@ -218,6 +225,13 @@ static int longest_axis(const int *item, int count, const struct v3 *centre)
 	return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
 }
 
+/* Half of the triangles, but whole leaves of them: full leaves are fewer. */
+static int middle_of(int count)
+{
+	int leaves = (count + LEAF_TRIANGLES - 1) / LEAF_TRIANGLES;
+	return leaves / 2 * LEAF_TRIANGLES;
+}
+
 /* Median splits, breadth first: node n's triangles are slots [first, first + count) while it waits.
  */
 static void build_tree(struct body *body)
@@ -239,7 +253,7 @@ static void build_tree(struct body *body)
 		bound_node(body, node, first, count);
 		if (count <= LEAF_TRIANGLES)
 			continue;
-		int *item = body->node_triangle + first, half = count / 2;
+		int *item = body->node_triangle + first, half = middle_of(count);
 		select_middle(item, count, half, scratch->centre_m,
 			      longest_axis(item, count, scratch->centre_m));
 		MUST(body->node_count + 2 <= NODES_MAX);
@@ -250,6 +264,8 @@ static void build_tree(struct body *body)
 		body->node[body->node_count].first = first + half;
 		body->node[body->node_count++].count = count - half;
 	}
+	near_tree_build(body->near, body->node, body->node_triangle, body->triangle,
+			body->position_m);
 	body->low_m = body->node[0].low_m;
 	body->high_m = body->node[0].high_m;
 }
@@ -291,6 +307,7 @@ const char *body_build(struct body *body, const struct v3 *position_m, int verte
 	}
 	build_normals(body);
 	build_tree(body);
+	body_find_clear(body);
 	memset(body->part, PART_TRUNK, (size_t)body->triangle_count);
 	body->bone_count = 0;
 	memset(body->landmark, 0, sizeof body->landmark);

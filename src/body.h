@@ -8,6 +8,9 @@
 #include "garment.h"
 #include "vec.h"
 
+/* A point farther from the body than this is only known to be so. */
+#define BODY_NEAR_M 0.06f
+
 enum body_part {
 	PART_TRUNK,
 	PART_HEAD, /* with the neck */
@@ -45,6 +48,8 @@ struct body {
 	int node_count;
 	struct bvh_node *node;
 	int *node_triangle; /* slots */
+	struct near_tree *near;
+	float *clear_m; /* per triangle: to points above it, no farther, nothing else is nearer */
 	int bone_count; /* spine from the pelvis up, neck, head, limbs; collar-bones and hips last
 			 */
 	struct bone bone[BODY_BONES_MAX];
@@ -90,6 +95,23 @@ void body_nearest_from(const struct body *body, struct v3 point_m, unsigned part
  * the triangles looked at. */
 int body_walk(const struct body *body, struct v3 point_m, int from, int steps_max,
 	      struct body_hit *hit);
+
+/* What is known of a point that moves, from look to look. */
+struct body_track {
+	int triangle;   /* that holds its nearest point; -1: never looked */
+	unsigned parts; /* that were asked for */
+	struct v3 at_m; /* where it was looked up */
+	float least_m;  /* no surface was nearer to it there */
+};
+
+/* The nearest point within BODY_NEAR_M of a point that moves: a walk from the last one, and the
+ * exact query where neither the surface below (body.clear_m) nor the way gone since the last exact
+ * query shows that the walk has found it; right to 1 mm (track_slack_m and what clear_m leaves).
+ * Farther points are looked up exactly when they have gone a quarter of their distance; until then
+ * the hit stays as it is and false is returned. hit->normal is the direction of the distance. Adds
+ * the triangles looked at to *units. */
+bool body_track(const struct body *body, struct v3 point_m, unsigned parts,
+		struct body_track *track, struct body_hit *hit, long *units);
 
 /* First hit of a ray with a front face (or, with `back`, the last hit with a back face: laser
  * mode's other side). Direction of any length; distance in units of it. False: no hit. */

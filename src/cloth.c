@@ -29,6 +29,7 @@ void cloth_init(struct cloth *cloth, struct arena *arena)
 	s->smooth_m = ARENA_ARRAY(arena, struct v3, GARMENT_VERTICES_MAX);
 	s->edge_owner = ARENA_ARRAY(arena, uint8_t, GARMENT_TRIANGLES_MAX);
 	s->stiff = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
+	s->track = ARENA_ARRAY(arena, struct body_track, GARMENT_VERTICES_MAX);
 	s->lift_m = ARENA_ARRAY(arena, float, GARMENT_VERTICES_MAX);
 	s->slack_m = ARENA_ARRAY(arena, float, GARMENT_VERTICES_MAX);
 	cloth->scratch = s;

@@ -2,81 +2,66 @@
 #include "cloth_private.h"
 
 enum {
-	WALK_EVERY = 3,      /* sweeps between walks of one particle; the plane serves in between */
-	WALK_FAR_EVERY = 12, /* the same for a particle that can't touch soon */
-	EXACT_EVERY = 96,    /* sweeps between exact queries, which find the way off a wrong limb */
-	EXACT_WRAP_EVERY = 48,
 	WALK_STEPS_MAX = 12,
+	RAY_UNITS = 32, /* a segment's way through the tree, in triangles looked at */
 };
 
+static const float look_again_m = 0.0005f; /* the plane serves so far from where it was found */
 static const float near_m = 0.03f;         /* farther cloth can't touch in the next sweeps */
-static const float far_m = 0.08f;          /* farther cloth can't touch within WALK_FAR_EVERY */
 static const float push_max_m = 0.015f;    /* deepest step out in one sweep */
-static const float stay_m = 0.0005f;       /* another limb must be this much nearer to be taken */
+static const float skin_m = 0.0005f;       /* what would pass through is stopped so far outside */
 static const float lift_max_m = 0.015f;    /* highest a particle is lifted for its faces */
 static const float lift_slack_m = 0.0015f; /* faces this clear let their corners down again */
 
-static void take_hit(struct contact *contact, struct v3 p, const struct body_hit *hit)
+static long look(struct cloth *cloth, int v)
 {
-	struct v3 away = v3_sub(p, hit->point_m);
-	float length = v3_length(away);
-	contact->triangle = hit->triangle;
-	contact->point_m = hit->point_m;
-	contact->distance_m = hit->distance_m;
-	contact->normal = hit->normal;
-	if (length > 1e-5f)
-		contact->normal = v3_scale(away, (hit->distance_m < 0.0f ? -1.0f : 1.0f) / length);
+	struct body_hit hit;
+	long units = 0;
+	if (body_track(cloth->body, cloth->position_m[v], allowed_parts(cloth, v),
+		       &cloth->scratch->track[v], &hit, &units))
+		cloth->contact[v] = (struct contact){hit.triangle, hit.point_m, hit.normal,
+						     hit.distance_m};
+	return units;
 }
 
 void cloth_look(struct cloth *cloth, int v)
 {
-	struct body_hit hit;
-	body_nearest_from(cloth->body, cloth->position_m[v], allowed_parts(cloth, v),
-			  cloth->contact[v].triangle, &hit);
-	take_hit(&cloth->contact[v], cloth->position_m[v], &hit);
+	cloth->scratch->track[v].triangle = -1;
+	look(cloth, v);
 }
 
-/* A walk may end on a part that the piece must not touch yet; then only the exact query will do. */
-static long walk(struct cloth *cloth, int v)
+/* However far a particle was moved since its last look, it has not passed through the body: it
+ * stops where its way meets the surface. Only a way as long as the distance was can meet it (the
+ * displacement bound of Chen et al., "Offset Geometric Contact", 2025, here with the exact way
+ * instead of a shorter step, since the body stands still). */
+static long stop_at_surface(struct cloth *cloth, int v)
 {
-	struct body_hit hit;
-	struct contact *contact = &cloth->contact[v];
+	const struct body_track *track = &cloth->scratch->track[v];
+	struct v3 *p = &cloth->position_m[v];
 	unsigned parts = allowed_parts(cloth, v);
-	int looked = body_walk(cloth->body, cloth->position_m[v], contact->triangle, WALK_STEPS_MAX,
-			       &hit);
-	if (parts && !(parts >> cloth->body->part[hit.triangle] & 1)) {
-		cloth_look(cloth, v);
-		return looked + 64;
-	}
-	take_hit(contact, cloth->position_m[v], &hit);
-	return looked;
-}
-
-/* The exact query has the word only where it finds something clearly nearer: where two limbs are
- * equally near, a particle that changes sides would never rest. */
-static long check(struct cloth *cloth, int v)
-{
-	long looked = walk(cloth, v);
-	struct contact before = cloth->contact[v];
-	float walked = float_abs(before.distance_m);
-	cloth_look(cloth, v);
-	if (float_abs(cloth->contact[v].distance_m) > walked - stay_m)
-		cloth->contact[v] = before;
-	return looked + 64;
+	struct body_hit hit;
+	if (cloth->contact[v].distance_m <= 0.0f ||
+	    !body_segment_hits(cloth->body, track->at_m, *p, &hit) ||
+	    (parts && !(parts >> cloth->body->part[hit.triangle] & 1)))
+		return RAY_UNITS;
+	*p = v3_mad(hit.point_m, cloth->body->face_normal[hit.triangle], skin_m);
+	return RAY_UNITS;
 }
 
 static long refresh(struct cloth *cloth, int v)
 {
-	int turn = cloth->sweep + v;
-	int exact_every = cloth->worn ? EXACT_EVERY : EXACT_WRAP_EVERY;
-	int walk_every = cloth->contact[v].distance_m > far_m ? WALK_FAR_EVERY : WALK_EVERY;
+	struct body_track *track = &cloth->scratch->track[v];
+	long units = 0;
 	if (cloth->contact[v].triangle < 0) {
-		cloth_look(cloth, v);
-		return 64;
+		track->triangle = -1;
+		return look(cloth, v);
 	}
-	if (turn % exact_every == 0)
-		return check(cloth, v);
-	return turn % walk_every == 0 ? walk(cloth, v) : 1;
+	float way = v3_distance(cloth->position_m[v], track->at_m);
+	if (way < look_again_m && track->parts == allowed_parts(cloth, v))
+		return 1;
+	if (way > track->least_m)
+		units += stop_at_surface(cloth, v);
+	return units + look(cloth, v);
 }
 
 /* Out along the normal. Friction: Coulomb's, so that cloth that hangs can rest (a step shorter than

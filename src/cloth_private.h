@@ -27,8 +27,9 @@ struct cloth_scratch {
 	uint8_t *edge_owner; /* per triangle: bit k: edge k is looked at here, not in its neighbour
 			      */
 	uint8_t *stiff;      /* per particle: lay in a fold that was turned back, so bends less */
-	float *lift_m;       /* per particle: above offset_m, for the sake of its faces */
-	float *slack_m;      /* per particle: least clearance of its faces in this round */
+	struct body_track *track; /* per particle */
+	float *lift_m;            /* per particle: above offset_m, for the sake of its faces */
+	float *slack_m;           /* per particle: least clearance of its faces in this round */
 };
 
 static inline bool triangle_placed(const struct cloth *cloth, int t)

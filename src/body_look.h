@@ -1,0 +1,105 @@
+/* The nearest point on one triangle, and downhill from there. Inline: a walk looks at one or two
+ * triangles, and a call costs as much as looking. */
+#ifndef BODY_LOOK_H
+#define BODY_LOOK_H
+
+#include "body.h"
+
+/* Which feature of a triangle a nearest point lies on. */
+enum feature {
+	ON_FACE,
+	ON_EDGE,                 /* + k: v[k] v[k+1] */
+	ON_VERTEX = ON_EDGE + 3, /* + k */
+};
+
+/* The nearest point found so far (body_near.c). */
+struct nearest {
+	int triangle, feature;
+	struct v3 point_m;
+	float d2;
+};
+
+static const struct nearest nearest_none = {0, ON_FACE, {0.0f, 0.0f, 0.0f}, 1e18f};
+static const float near_rim_m = 0.05f; /* a rim counts as so much farther: it has no side */
+
+static inline bool near_allowed(const struct body *body, int t, unsigned parts)
+{
+	return !parts || (parts >> body->part[t] & 1);
+}
+
+/* Ericson, Real-Time Collision Detection, 5.1.5; with the feature that it lies on. */
+static inline struct v3 nearest_on_triangle(struct v3 p, struct v3 a, struct v3 b, struct v3 c,
+					    int *feature)
+{
+	struct v3 ab = v3_sub(b, a), ac = v3_sub(c, a), ap = v3_sub(p, a);
+	float d1 = v3_dot(ab, ap), d2 = v3_dot(ac, ap);
+	*feature = ON_VERTEX;
+	if (d1 <= 0.0f && d2 <= 0.0f)
+		return a;
+	struct v3 bp = v3_sub(p, b);
+	float d3 = v3_dot(ab, bp), d4 = v3_dot(ac, bp);
+	*feature = ON_VERTEX + 1;
+	if (d3 >= 0.0f && d4 <= d3)
+		return b;
+	float vc = d1 * d4 - d3 * d2;
+	*feature = ON_EDGE;
+	if (vc <= 0.0f && d1 >= 0.0f && d3 <= 0.0f)
+		return v3_mad(a, ab, d1 / (d1 - d3));
+	struct v3 cp = v3_sub(p, c);
+	float d5 = v3_dot(ab, cp), d6 = v3_dot(ac, cp);
+	*feature = ON_VERTEX + 2;
+	if (d6 >= 0.0f && d5 <= d6)
+		return c;
+	float vb = d5 * d2 - d1 * d6;
+	*feature = ON_EDGE + 2;
+	if (vb <= 0.0f && d2 >= 0.0f && d6 <= 0.0f)
+		return v3_mad(a, ac, d2 / (d2 - d6));
+	float va = d3 * d6 - d5 * d4;
+	*feature = ON_EDGE + 1;
+	if (va <= 0.0f && d4 - d3 >= 0.0f && d5 - d6 >= 0.0f)
+		return v3_mad(b, v3_sub(c, b), (d4 - d3) / ((d4 - d3) + (d5 - d6)));
+	*feature = ON_FACE;
+	float scale = 1.0f / (va + vb + vc);
+	return v3_add(v3_mad(a, ab, vb * scale), v3_scale(ac, vc * scale));
+}
+
+/* Takes triangle t when it is nearer. */
+static inline void near_look(const struct body *body, struct v3 p, int t, struct nearest *best)
+{
+	const int *v = body->triangle[t].v;
+	int feature;
+	struct v3 q = nearest_on_triangle(p, body->position_m[v[0]], body->position_m[v[1]],
+					  body->position_m[v[2]], &feature);
+	struct v3 d = v3_sub(p, q);
+	float d2 = v3_dot(d, d);
+	if (d2 < best->d2)
+		*best = (struct nearest){t, feature, q, d2};
+}
+
+/* One step downhill: over the edge that holds the nearest point, or round its vertex. Inside a face
+ * nothing can be nearer but another sheet of the surface. */
+static inline int near_walk(const struct body *body, struct v3 point_m, unsigned parts,
+			    int steps_max, struct nearest *best)
+{
+	int looked = 0;
+	for (int step = 0; step < steps_max && best->feature != ON_FACE; step++) {
+		int at = best->triangle;
+		const int *next = &body->neighbour[3 * at + best->feature - ON_EDGE];
+		int count = 1;
+		if (best->feature >= ON_VERTEX) {
+			int v = body->triangle[at].v[best->feature - ON_VERTEX];
+			next = &body->star[body->star_first[v]];
+			count = body->star_first[v + 1] - body->star_first[v];
+		}
+		for (int i = 0; i < count; i++)
+			if (next[i] != at && near_allowed(body, next[i], parts)) {
+				near_look(body, point_m, next[i], best);
+				looked++;
+			}
+		if (best->triangle == at)
+			break;
+	}
+	return looked;
+}
+
+#endif

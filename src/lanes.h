@@ -1,0 +1,63 @@
+/* Four floats worked on at once, by the compiler's own vectors: SSE2 and NEON have them, and each
+ * lane is rounded as a float is, so that the bits are the same everywhere. */
+#ifndef LANES_H
+#define LANES_H
+
+#include "vec.h"
+
+enum { LANES = 4 };
+
+typedef float lanes __attribute__((vector_size(16)));
+typedef int32_t lane_mask __attribute__((vector_size(16))); /* -1: yes, 0: no */
+
+struct lanes3 {
+	lanes x, y, z;
+};
+
+static inline lanes lanes_of(float a)
+{
+	return (lanes){a, a, a, a};
+}
+
+static inline lanes lanes_select(lane_mask mask, lanes yes, lanes no)
+{
+	return (lanes)((mask & (lane_mask)yes) | (~mask & (lane_mask)no));
+}
+
+static inline lanes lanes_min(lanes a, lanes b)
+{
+	return lanes_select(a < b, a, b);
+}
+
+static inline lanes lanes_above_zero(lanes a)
+{
+	return (lanes)((a > lanes_of(0.0f)) & (lane_mask)a);
+}
+
+static inline lanes lanes_abs(lanes a)
+{
+	return (lanes)((lane_mask)a & (lane_mask){INT32_MAX, INT32_MAX, INT32_MAX, INT32_MAX});
+}
+
+static inline struct lanes3 lanes3_of(struct v3 a)
+{
+	return (struct lanes3){lanes_of(a.x), lanes_of(a.y), lanes_of(a.z)};
+}
+
+static inline struct lanes3 lanes3_sub(struct lanes3 a, struct lanes3 b)
+{
+	return (struct lanes3){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+/* a - b s */
+static inline struct lanes3 lanes3_less(struct lanes3 a, struct lanes3 b, lanes s)
+{
+	return (struct lanes3){a.x - b.x * s, a.y - b.y * s, a.z - b.z * s};
+}
+
+static inline lanes lanes3_dot(struct lanes3 a, struct lanes3 b)
+{
+	return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+#endif
