@@ -9,7 +9,7 @@ enum {
 
 static const float clear_max_m = 0.08f;
 static const float clear_slack_m = 0.00025f; /* how much nearer something else may be */
-static const float clear_share = 0.7f;      /* of clear_m is trusted: it is known at samples */
+static const float clear_share = 0.7f;       /* of clear_m is trusted: it is known at samples */
 static const float inside_m = 0.002f;        /* a walk in the body is trusted so deep */
 static const float track_slack_m = 0.0005f;  /* what a walk may be off by */
 static const float far_share = 0.25f;

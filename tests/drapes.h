@@ -32,8 +32,8 @@ static inline void poncho_half(struct piece *piece)
 		piece->point_mm[piece->point_count++] = corner[c];
 		for (int i = 1; c == 3 && i < PONCHO_NECK_POINTS; i++) {
 			float a = PI_F * (float)i / (float)PONCHO_NECK_POINTS;
-			piece->point_mm[piece->point_count++] =
-				(struct v2){120.0f * angle_cos(a), -120.0f * angle_sin(a)};
+			piece->point_mm[piece->point_count++] = (struct v2){120.0f * angle_cos(a),
+									    -120.0f * angle_sin(a)};
 		}
 	}
 }
