@@ -79,8 +79,9 @@ const char *body_build(struct body *body, const struct v3 *position_m, int verte
 /* Builds the mannequin of this house into the body (generator: body_mannequin.c). */
 const char *body_build_mannequin(struct body *body);
 
-/* Head, arms, legs and bones for any standing figure (S19). Returns false when no arms, legs and
- * head were found: then everything is trunk and there are no bones. */
+/* Head, arms, legs, bones and landmarks for any standing figure (S19); on four feet the forelegs are
+ * arms. Arms or legs that lie in one with the trunk, as under a robe, are part of it. Returns false
+ * when neither were found, or no head: then everything is trunk and there are no bones. */
 bool body_find_parts(struct body *body);
 
 /* Exact nearest surface point. `parts` is a bit set of enum body_part to consider; 0 means all. */

@@ -8,6 +8,9 @@ enum { GIRTH_STEPS = 16, FACE_STEPS = 48, EAR_STEPS = 64 };
 static const float girth_low = 0.60f, girth_high = 0.75f;
 static const float nose_low = 0.15f, nose_high = 0.55f;
 
+/* From its middle a head reaches no farther, in lengths of its bone. */
+static const float skull_reach = 1.2f;
+
 /* A crown may be a crest or a helmet's edge. */
 static const float skull_lean_max = 0.3f; /* tangent */
 
@@ -35,11 +38,20 @@ static struct v3 skull_point(const struct landmark_scratch *s, float share)
 	return v3_lerp(s->head.point_m[last - 1], s->head.point_m[last], share);
 }
 
+/* From outside, but not from beyond a raised arm. */
+static bool skull_skin(const struct landmark_scratch *s, struct v3 to_m, struct v3 direction,
+		       struct body_hit *hit)
+{
+	int last = s->head.count - 1;
+	float far = skull_reach * v3_distance(s->head.point_m[last - 1], s->head.point_m[last]);
+	return skin_inward(s->body, to_m, direction, far, hit);
+}
+
 /* The section of the skull from outside: mouths do not matter. */
 static bool skull_section(struct landmark_scratch *s, const struct frame *frame, float share)
 {
 	struct body_hit hit;
-	return skin_inward(s->body, skull_point(s, share), frame->front, &hit) &&
+	return skull_skin(s, skull_point(s, share), frame->front, &hit) &&
 	       section_walk(s, &hit, frame->axis);
 }
 
@@ -70,7 +82,7 @@ static void keep_head_centre(struct landmark_scratch *s, const struct frame *fra
 		struct v3 direction = t < 1.0f ? v3_lerp(frame->front, frame->axis, t)
 					       : v3_lerp(frame->axis, v3_scale(frame->front, -1.0f),
 							 t - 1.0f);
-		if (!skin_inward(s->body, middle, v3_normalize(direction), &hit))
+		if (!skull_skin(s, middle, v3_normalize(direction), &hit))
 			continue;
 		sketch_add(s, hit.point_m);
 		if (i == 0 || i == FACE_STEPS)
@@ -79,7 +91,7 @@ static void keep_head_centre(struct landmark_scratch *s, const struct frame *fra
 	for (int i = 1; i < FACE_STEPS; i++) {
 		float share = (float)i / (float)FACE_STEPS;
 		struct v3 at = v3_lerp(middle, s->head.point_m[0], share);
-		if (skin_inward(s->body, at, v3_scale(frame->front, -1.0f), &hit))
+		if (skull_skin(s, at, v3_scale(frame->front, -1.0f), &hit))
 			sketch_add(s, hit.point_m);
 	}
 	sketch_add(s, s->nape_m);
@@ -95,7 +107,7 @@ static float nose_share(struct landmark_scratch *s, const struct frame *frame)
 		struct body_hit hit;
 		float share = nose_low + (nose_high - nose_low) * (float)i / (float)GIRTH_STEPS;
 		struct v3 middle = skull_point(s, share);
-		if (!skin_inward(s->body, middle, frame->front, &hit))
+		if (!skull_skin(s, middle, frame->front, &hit))
 			continue;
 		float out = v3_dot(v3_sub(hit.point_m, middle), frame->front);
 		if (out > best) {
@@ -113,7 +125,7 @@ static void keep_face(struct landmark_scratch *s, const struct frame *frame, flo
 	for (int i = 0; i <= FACE_STEPS; i++) {
 		struct body_hit hit;
 		float share = forehead * (1.0f - (float)i / (float)FACE_STEPS);
-		if (skin_inward(s->body, skull_point(s, share), frame->front, &hit))
+		if (skull_skin(s, skull_point(s, share), frame->front, &hit))
 			sketch_add(s, hit.point_m);
 		if (s->sketch.count == 0)
 			return;
@@ -135,7 +147,7 @@ static void keep_ears(struct landmark_scratch *s, const struct frame *frame, flo
 		float angle = PI_F * (float)i / (float)EAR_STEPS;
 		struct v3 direction = v3_add(v3_scale(frame->side, -angle_cos(angle)),
 					     v3_scale(frame->front, angle_sin(angle)));
-		if (skin_inward(s->body, middle, direction, &hit))
+		if (skull_skin(s, middle, direction, &hit))
 			sketch_add(s, hit.point_m);
 		if (s->sketch.count == 0)
 			return;

@@ -77,10 +77,10 @@ void chain_add_point(struct chain *chain, struct v3 point_m);
 /* The direction at a place, evened out over `window_m` to both sides. */
 struct v3 chain_axis(const struct chain *chain, float along_m, float window_m);
 
-/* From inside to the skin, and from far outside to it. */
+/* From inside to the skin, and from `far` metres outside to it. */
 bool skin_outward(const struct body *body, struct v3 from_m, struct v3 direction,
 		  struct body_hit *hit);
-bool skin_inward(const struct body *body, struct v3 to_m, struct v3 direction,
+bool skin_inward(const struct body *body, struct v3 to_m, struct v3 direction, float far,
 		 struct body_hit *hit);
 
 /* The section by the plane through the hit, begun at it. False: too many points, or the plane

@@ -64,9 +64,9 @@ bool skin_outward(const struct body *body, struct v3 from_m, struct v3 direction
 	return body_ray_out(body, from_m, direction, hit);
 }
 
-bool skin_inward(const struct body *body, struct v3 to_m, struct v3 direction, struct body_hit *hit)
+bool skin_inward(const struct body *body, struct v3 to_m, struct v3 direction, float far,
+		 struct body_hit *hit)
 {
-	float far = v3_distance(body->low_m, body->high_m);
 	return body_ray(body, v3_mad(to_m, direction, far), v3_scale(direction, -1.0f), hit);
 }
 

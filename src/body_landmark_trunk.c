@@ -7,6 +7,7 @@
 static const float hip_low = 0.08f, hip_high = 0.28f;
 static const float waist_low = 0.38f, waist_high = 0.62f;
 static const float chest_low = 0.62f;
+static const float trunk_arms = 1.2f; /* neck pit to crotch, in lengths from shoulder to wrist */
 static const float armpit_margin = 0.03f; /* below the armpit a section holds no arm */
 
 enum { LEVEL_STEPS = 24, SIDE_STEPS = 48 };
@@ -34,7 +35,8 @@ static bool section_at(struct landmark_scratch *s, float level)
 	struct body_hit hit;
 	struct v3 middle = trunk_middle(s, level);
 	return section_round(s, middle, &s->frame) ||
-	       (skin_inward(s->body, middle, s->frame.front, &hit) &&
+	       (skin_inward(s->body, middle, s->frame.front, s->neck_level - s->crotch_level,
+			    &hit) &&
 		section_walk(s, &hit, s->frame.axis));
 }
 
@@ -95,9 +97,18 @@ static float share_level(const struct landmark_scratch *s, float share)
 	return s->crotch_level + share * (s->neck_level - s->crotch_level);
 }
 
+/* Under a robe the crotch is where arms would reach it. */
+static void guess_crotch(struct landmark_scratch *s)
+{
+	if (s->arm[0].found && !s->leg[0].found)
+		s->crotch_level = float_max(s->crotch_level,
+					    s->neck_level - trunk_arms * s->arm[0].end_m);
+}
+
 /* A body without arms has its armpits where others do. */
 static void find_levels(struct landmark_scratch *s)
 {
+	guess_crotch(s);
 	s->armpit_level = share_level(s, 0.8f);
 	for (int side = 0; side < 2; side++)
 		if (s->arm[side].found)

@@ -1,14 +1,15 @@
 /* Finding the parts and bones of a body (S19); shared by body_parts*.c only.
  *
- *   mesh -> paths over the surface -> how remote each vertex is -> tips -> limbs cut off at armpit
- *   and crotch -> names -> head cut off at the neck -> bones through the centres of sections
+ *   mesh -> paths over the surface -> how remote each vertex is -> tips -> limbs, measured as far
+ * as armpit and crotch -> names -> limbs cut off -> head cut off at the neck -> bones through the
+ *   centres of sections
  */
 #ifndef BODY_PARTS_H
 #define BODY_PARTS_H
 
 #include "body.h"
 
-enum { LEVELS_MAX = 128, LIMBS_MAX = 16, OWNER_NONE = -1, OWNER_ANY = -2 };
+enum { LEVELS_MAX = 128, LIMBS_MAX = 24, OWNER_NONE = -1, OWNER_ANY = -2 };
 
 /* A straight way over the surface from one vertex to another: an edge, or a diagonal across one. */
 struct link {
@@ -33,7 +34,7 @@ struct path {
 
 struct limb {
 	int tip, saddle; /* vertices; the limb joins the rest at the saddle */
-	float length_m;  /* from the tip to the cut, over the surface; 0: not cut off */
+	float length_m;  /* from the tip to the cut, over the surface; 0: no limb */
 	struct path path;
 };
 
@@ -51,11 +52,12 @@ struct parts_scratch {
 	int *order, *order_swap;
 	int *set, *set_tip; /* union-find; the highest vertex of a set's root */
 	int limb_count;
-	struct limb limb[LIMBS_MAX];
-	float reach_m; /* half the greatest distance between two places */
+	struct limb limb[LIMBS_MAX + 1]; /* the head is limb[LIMBS_MAX] */
+	float reach_m;                   /* half the greatest distance between two places */
 	float remote_max_m;
 	struct contour contour[LEVELS_MAX + 1];
 	struct path neck, trunk;
+	struct v3 head_end_m; /* where a line from the neck through the middle of the head ends */
 };
 
 struct parts_scratch *parts_init(struct arena *arena);
@@ -87,18 +89,38 @@ void parts_tips(const struct body *body, struct parts_scratch *scratch, float pe
 void parts_contours(const struct body *body, struct parts_scratch *scratch, float level_m,
 		    int count, int owner);
 
-/* Cuts a limb off at the armpit or the crotch: owner, share, the limb's length and path. */
-void parts_cut_limb(const struct body *body, struct parts_scratch *scratch, int limb);
+/* Where a limb is to be cut off, at the armpit or the crotch: its length (0: it is no limb) and
+ * path.
+ */
+void parts_measure_limb(const struct body *body, struct parts_scratch *scratch, int limb);
+
+/* Cuts a measured limb off: owner and share. */
+void parts_claim_limb(const struct body *body, struct parts_scratch *scratch, int limb);
 
 /* The path along contours [from, to], either way. */
 void parts_path(const struct parts_scratch *scratch, int from, int to, struct path *path);
 
+/* ---- body_parts_name.c ---- */
+
+/* Where the figure stands: what its names are told from. */
+struct stance {
+	float low_m, height_m, middle_x_m, middle_y_m;
+};
+
+struct stance parts_stance(const struct body *body);
+
+/* Which measured limb is which part; -1: none. Legs and arms are named in pairs. The highest vertex
+ * near the middle is the head's tip. */
+void parts_name(const struct body *body, struct parts_scratch *scratch, const struct stance *stance,
+		int limb[PART_COUNT]);
+
 /* ---- body_parts_head.c ---- */
 
-/* Cuts the head off below the neck, seen along the line from chest_m to the crown: owner, the
- * limb's length, and the paths of neck and head. False: there is no neck. */
-bool parts_cut_head(const struct body *body, struct parts_scratch *scratch, int head,
-		    struct v3 chest_m);
+/* Cuts the head off below the neck, seen along the line from chest_m to the middle of the head:
+ * owner, the limb's length, and the paths of neck and head. False: there is no neck; with `guess`
+ * it is then taken to be where others have it. */
+bool parts_cut_head(const struct body *body, struct parts_scratch *scratch, struct v3 chest_m,
+		    bool guess);
 
 /* The trunk's path from pelvis_m (between the legs) to neck_m. */
 void parts_trunk(const struct body *body, struct parts_scratch *scratch, struct v3 pelvis_m,

@@ -1,7 +1,7 @@
 /* Bones: a path through a limb becomes two or three segments that bend where the limb bends. */
 #include "body_parts.h"
 
-enum { JOINTS_MAX = 4 };
+enum { JOINTS_MAX = 4, SKULL_SAMPLES = 16 };
 
 /* Joints are places on a path, in order, both ends among them. */
 struct joints {
@@ -136,13 +136,6 @@ static void trim_hand(const struct body *body, struct path *path)
 		}
 }
 
-/* The crown's last sections are too near to it; a mouth inside the head does not matter. */
-static void trim_crown(const struct body *body, struct path *path)
-{
-	while (path->count > 3 && !is_covered(body, path, path->count - 1, 0.2f))
-		path->count--;
-}
-
 /* The lowest sections of the trunk may hold its seat alone, since the legs are left out. */
 static void trim_seat(const struct body *body, struct path *path)
 {
@@ -180,24 +173,74 @@ static void add_limbs(struct body *body, const struct path *left, const struct p
 	add_path(body, part_right, right, &b);
 }
 
+/* Spine and neck meet: the trunk's highest sections lean to the back, where shoulders are, or hang
+ * low, where a chest stands out; they are left out. */
+static void join_neck(struct path *trunk, const struct path *neck)
+{
+	trunk->count -= trunk->count / 8;
+	if (neck->count > 0)
+		trunk->point_m[trunk->count - 1] = neck->point_m[0];
+}
+
+/* The crown's last sections are too near to it. */
+static void trim_crown(const struct body *body, struct path *path)
+{
+	while (path->count > 3 && !is_covered(body, path, path->count - 1, 0.2f))
+		path->count--;
+}
+
+static bool is_inside(const struct body *body, struct v3 a_m, struct v3 b_m)
+{
+	bool inside = true;
+	for (int i = 0; i <= SKULL_SAMPLES && inside; i++) {
+		struct body_hit hit;
+		struct v3 p = v3_lerp(a_m, b_m, (float)i / (float)SKULL_SAMPLES);
+		body_nearest(body, p, 0, &hit);
+		inside = hit.distance_m < 0.0f;
+	}
+	return inside;
+}
+
+/* From the neck through the middle of the head: sections near the crown say little, since a crest
+ * or a helmet's edge may be the highest. Where a throat is hollow their way goes round it. */
+static void add_skull(struct body *body, const struct parts_scratch *s, struct path *path)
+{
+	struct v3 from_m = path->point_m[0];
+	for (float share = 0.95f; share > 0.5f; share -= 0.05f) {
+		struct v3 to_m = v3_lerp(from_m, s->head_end_m, share);
+		if (!is_inside(body, from_m, to_m))
+			continue;
+		add_bone(body, PART_HEAD, from_m, to_m, mean_radius(path, 0, path->count - 1));
+		return;
+	}
+	trim_crown(body, path);
+	add_whole(body, PART_HEAD, path);
+}
+
 void parts_bones(struct body *body, struct parts_scratch *s, const int limb[PART_COUNT])
 {
 	struct path *trunk = &s->trunk, *path[PART_COUNT] = {NULL};
 	struct joints joints;
 	for (int part = PART_HEAD; part < PART_COUNT; part++)
-		path[part] = &s->limb[limb[part]].path;
+		path[part] = limb[part] < 0 ? NULL : &s->limb[limb[part]].path;
 	trim_seat(body, trunk);
-	trim_crown(body, path[PART_HEAD]);
-	for (int part = PART_ARM_LEFT; part < PART_COUNT; part++)
-		trim_hand(body, path[part]);
+	join_neck(trunk, &s->neck);
 	body->bone_count = 0;
 	find_joints(trunk, 3, &joints);
 	add_path(body, PART_TRUNK, trunk, &joints);
 	add_whole(body, PART_HEAD, &s->neck);
-	add_whole(body, PART_HEAD, path[PART_HEAD]);
-	add_limbs(body, path[PART_ARM_LEFT], path[PART_ARM_RIGHT], PART_ARM_LEFT, PART_ARM_RIGHT);
-	add_limbs(body, path[PART_LEG_LEFT], path[PART_LEG_RIGHT], PART_LEG_LEFT, PART_LEG_RIGHT);
+	add_skull(body, s, path[PART_HEAD]);
+	for (int part = PART_ARM_LEFT; part < PART_COUNT; part += 2) {
+		if (!path[part])
+			continue;
+		trim_hand(body, path[part]);
+		trim_hand(body, path[part + 1]);
+		add_limbs(body, path[part], path[part + 1], (enum body_part)part,
+			  (enum body_part)(part + 1));
+	}
 	for (int part = PART_ARM_LEFT; part < PART_COUNT; part++)
-		add_girdle(body, trunk->point_m[part < PART_LEG_LEFT ? trunk->count - 1 : 0],
-			   path[part]);
+		if (path[part])
+			add_girdle(body,
+				   trunk->point_m[part < PART_LEG_LEFT ? trunk->count - 1 : 0],
+				   path[part]);
 }

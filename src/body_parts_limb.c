@@ -139,19 +139,34 @@ void parts_contours(const struct body *body, struct parts_scratch *s, float leve
 
 /* ---- cutting off ---- */
 
+enum { GIRTH_MEAN = 5 };
+
+/* Means over GIRTH_MEAN levels: a crease or a rough surface is no armpit. */
+static void smooth_girths(const struct parts_scratch *s, float girth_m[LEVELS_MAX + 1])
+{
+	for (int k = 0; k <= LEVELS_MAX; k++) {
+		int low = int_max(k - GIRTH_MEAN / 2, 0),
+		    high = int_min(low + GIRTH_MEAN, LEVELS_MAX);
+		girth_m[k] = 0.0f;
+		for (int i = low; i < high; i++)
+			girth_m[k] += s->contour[i].girth_m / (float)(high - low);
+	}
+}
+
 /* The level where the limb ends: past hand or foot, the first where the girth begins to grow faster
  * than 2 m a metre, which it does at the armpit and at the crotch. */
 static int cut_level(const struct parts_scratch *s, float estimate_m, float level_m)
 {
-	const struct contour *c = s->contour;
+	float girth_m[LEVELS_MAX + 1];
+	smooth_girths(s, girth_m);
 	int window = int_max(2, (int)(0.022f * s->reach_m / level_m + 0.5f));
 	int last = LEVELS_MAX - window - 1, k = (int)(0.35f * estimate_m / level_m);
-	while (k < last && (float)k * level_m < 0.42f * c[k].girth_m)
+	while (k < last && (float)k * level_m < 0.42f * girth_m[k])
 		k++;
 	if (k == last)
 		k = (int)(0.9f * estimate_m / level_m);
 	while (k < last && (float)k * level_m < 1.05f * estimate_m &&
-	       c[k + window].girth_m - c[k].girth_m < 2.0f * (float)window * level_m)
+	       girth_m[k + window] - girth_m[k] < 2.0f * (float)window * level_m)
 		k++;
 	return k;
 }
@@ -207,12 +222,13 @@ void parts_path(const struct parts_scratch *s, int from, int to, struct path *pa
 	smooth_path(path);
 }
 
-void parts_cut_limb(const struct body *body, struct parts_scratch *s, int l)
+void parts_measure_limb(const struct body *body, struct parts_scratch *s, int l)
 {
 	struct limb *limb = &s->limb[l];
 	parts_distance_from(body, s, limb->tip);
 	float estimate_m = s->distance_m[limb->saddle];
 	float level_m = 1.5f * estimate_m / (float)LEVELS_MAX;
+	limb->length_m = 0.0f;
 	memcpy(s->height_m, s->distance_m, (size_t)body->vertex_count * sizeof *s->height_m);
 	parts_contours(body, s, level_m, LEVELS_MAX, OWNER_ANY);
 	int cut = cut_level(s, estimate_m, level_m);
@@ -221,8 +237,14 @@ void parts_cut_limb(const struct body *body, struct parts_scratch *s, int l)
 		return;
 	limb->length_m = length_m;
 	parts_path(s, cut, 2, &limb->path);
+}
+
+void parts_claim_limb(const struct body *body, struct parts_scratch *s, int l)
+{
+	const struct limb *limb = &s->limb[l];
+	parts_distance_from(body, s, limb->tip);
 	for (int v = 0; v < body->vertex_count; v++) {
-		float share = s->distance_m[v] / length_m;
+		float share = s->distance_m[v] / limb->length_m;
 		if (share <= 1.0f && share < s->share[v]) {
 			s->share[v] = share;
 			s->owner[v] = (int8_t)l;

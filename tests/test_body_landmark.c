@@ -1,6 +1,7 @@
 /* Landmarks: every one of them on the mannequin and on the shared bodies, on the skin and in the
  * right place; pieces of them; the edit that makes a mark of a piece. */
 #include "journal.h"
+#include "pose.h"
 #include "read_body.h"
 #include "scene.h"
 #include "shapes.h"
@@ -84,7 +85,7 @@ static void check_figure(void)
 	CHECK(armpit.y > waist.y && armpit.y < shoulder.y && shoulder.y < nape.y + 0.02f * h);
 	CHECK(nape.z < pit.z && float_abs(nape.y - pit.y) < 0.06f * h);
 	CHECK(armpit.x > 0.03f * h && shoulder.x > 0.03f * h && elbow.x > shoulder.x);
-	CHECK(wrist.x > elbow.x);
+	CHECK(v3_distance(wrist, shoulder) > 1.3f * v3_distance(elbow, shoulder));
 	CHECK(float_abs(pit.x) < 0.015f * h && float_abs(crotch.x) < 0.02f * h);
 	CHECK(v3_distance(crotch, stop(LANDMARK_BACK_CENTRE, 2)) < 0.001f);
 	CHECK(v3_distance(crotch, stop(LANDMARK_LEG_INNER_LEFT, 0)) < 0.001f);
@@ -111,6 +112,27 @@ static void test_mannequin(void)
 	CHECK_NEAR(girth(LANDMARK_ROUND_NECK), 0.345, 0.04);
 	CHECK_NEAR(stop(LANDMARK_FRONT_CENTRE, 2).y, 0.78, 0.02);
 	CHECK_NEAR(stop(LANDMARK_FRONT_CENTRE, 0).y, 1.41, 0.02);
+}
+
+/* T-pose, and arms close to the body: what the arms do not move stays. */
+static void test_poses(void)
+{
+	static struct shape shape;
+	static const float arms[] = {0.7f, -0.55f};
+	for (int i = 0; i < COUNT_OF(arms); i++) {
+		CHECK(!body_build_mannequin(body));
+		CHECK(body_find_parts(body));
+		float waist = girth(LANDMARK_ROUND_WAIST), wrist = girth(LANDMARK_ROUND_WRIST_LEFT);
+		struct v3 pit = stop(LANDMARK_FRONT_CENTRE, 0);
+		pose_arms(body, arms[i], &shape);
+		CHECK(!body_build(body, shape.position_m, shape.vertex_count, shape.triangle,
+				  shape.triangle_count));
+		CHECK(body_find_parts(body));
+		check_figure();
+		CHECK_NEAR(girth(LANDMARK_ROUND_WAIST), waist, 0.01);
+		CHECK_NEAR(girth(LANDMARK_ROUND_WRIST_LEFT), wrist, 0.02);
+		CHECK(v3_distance(pit, stop(LANDMARK_FRONT_CENTRE, 0)) < 0.02f);
+	}
 }
 
 static void test_find(void)
@@ -213,6 +235,7 @@ int main(void)
 	test_mannequin();
 	test_pieces();
 	test_edit(scene);
+	test_poses();
 	int present = test_others();
 	scene_close(scene);
 	if (present == 0 && !test_failures) {

@@ -1,5 +1,6 @@
-/* Head, arms, legs and bones: on the mannequin always, on eight other figures where the shared data
- * are; figures that have no arms are refused. */
+/* Head, arms, legs and bones: on the mannequin in three poses always, on nine other figures where
+ * the shared data are; what has no limbs is refused. */
+#include "pose.h"
 #include "read_body.h"
 #include "shapes.h"
 #include "test.h"
@@ -147,6 +148,44 @@ static void test_mirrored(void)
 	CHECK(differing < body.triangle_count / 100);
 }
 
+/* T-pose, and arms close to the body. */
+static void test_poses(void)
+{
+	static const float arms[] = {0.7f, -0.55f};
+	for (int i = 0; i < COUNT_OF(arms); i++) {
+		CHECK(!body_build_mannequin(&body));
+		CHECK(body_find_parts(&body));
+		pose_arms(&body, arms[i], &shape);
+		CHECK(!body_build(&other, shape.position_m, shape.vertex_count, shape.triangle,
+				  shape.triangle_count));
+		CHECK(body_find_parts(&other));
+		check_figure(&other);
+		CHECK(check_bones(&other) == 0);
+		int differing = 0;
+		for (int t = 0; t < body.triangle_count; t++)
+			differing += other.part[t] != body.part[t];
+		CHECK(differing < body.triangle_count / 40);
+	}
+}
+
+/* On four feet: the forelegs are arms, and no horn or ear is a head. */
+static void check_quadruped(void)
+{
+	struct summary s[PART_COUNT];
+	CHECK(body_find_parts(&body));
+	summarise(&body, s);
+	for (int part = 0; part < PART_COUNT; part++)
+		CHECK(s[part].triangles > 0 &&
+		      connected(&body, (enum body_part)part) == s[part].triangles);
+	CHECK(s[PART_ARM_LEFT].middle_m.z > s[PART_LEG_LEFT].middle_m.z + 0.3f);
+	CHECK(s[PART_ARM_LEFT].middle_m.x > 0.05f && s[PART_ARM_RIGHT].middle_m.x < -0.05f);
+	CHECK(s[PART_LEG_LEFT].middle_m.x > 0.05f && s[PART_LEG_RIGHT].middle_m.x < -0.05f);
+	CHECK(s[PART_HEAD].middle_m.z > 0.1f && float_abs(s[PART_HEAD].middle_m.x) < 0.02f);
+	CHECK(s[PART_HEAD].high_m.y == body.high_m.y);
+	CHECK_NEAR(s[PART_ARM_LEFT].area / s[PART_ARM_RIGHT].area, 1.0, 0.06);
+	CHECK(body.bone_count >= 12);
+}
+
 /* A limb cut off as an open mesh has no inside beyond its rim: deep in the trunk, seen from the arm
  * alone, every point is outside and out of reach. */
 static void test_rim(void)
@@ -207,28 +246,31 @@ static void test_no_figures(void)
 /* Returns how many of the shared bodies were there. */
 static int test_others(void)
 {
+	enum { NOTHING, FIGURE, QUADRUPED };
 	static const struct {
 		const char *name;
-		bool figure;
+		int kind;
 		int outside_max; /* samples of bones, of about 180 */
-	} cases[] = {{"mh_female_young_average", true, 0},
-		     {"mh_male_old_heavy", true, 5},
-		     {"mh_base_androgynous", true, 0},
-		     {"mh_child_female", true, 3},
-		     {"gc_mean_all", true, 5},
-		     {"gc_mean_male", true, 7},
-		     {"cesiumman", true, 0},
-		     {"kenney_charactermedium", true, 0},
-		     {"spot_cow", false, 0},
-		     {"bunny_28k", false, 0}};
+	} cases[] = {{"mh_female_young_average", FIGURE, 0},
+		     {"mh_male_old_heavy", FIGURE, 5},
+		     {"mh_base_androgynous", FIGURE, 0},
+		     {"mh_child_female", FIGURE, 3},
+		     {"gc_mean_all", FIGURE, 5},
+		     {"gc_mean_male", FIGURE, 7},
+		     {"cesiumman", FIGURE, 0},
+		     {"kenney_charactermedium", FIGURE, 0},
+		     {"spot_cow", QUADRUPED, 0},
+		     {"bunny_28k", NOTHING, 0}};
 	int present = 0;
 	for (int i = 0; i < COUNT_OF(cases); i++) {
 		int failures = test_failures;
 		if (!read_body(&body, cases[i].name))
 			continue;
 		present++;
-		if (!cases[i].figure) {
+		if (cases[i].kind == NOTHING) {
 			check_refused();
+		} else if (cases[i].kind == QUADRUPED) {
+			check_quadruped();
 		} else {
 			CHECK(body_find_parts(&body));
 			check_figure(&body);
@@ -251,6 +293,7 @@ int main(void)
 	arena_seal(&arena);
 	test_mannequin();
 	test_mirrored();
+	test_poses();
 	test_rim();
 	test_no_figures();
 	int present = test_others();
