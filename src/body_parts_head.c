@@ -141,10 +141,10 @@ void parts_trunk(const struct body *body, struct parts_scratch *s, struct v3 pel
 	float level_m = measure_along(body, s, pelvis_m, neck_m) / (float)TRUNK_LEVELS;
 	parts_contours(body, s, level_m, TRUNK_LEVELS, OWNER_NONE);
 	float widest_m = 0.0f;
-	for (int k = 0; k <= TRUNK_LEVELS; k++)
+	for (int k = 0; k <= TRUNK_LEVELS / 2; k++)
 		widest_m = float_max(widest_m, s->contour[k].girth_m);
-	int low = 1;
-	while (low < TRUNK_LEVELS / 2 && s->contour[low].girth_m < 0.5f * widest_m)
+	int low = 1; /* the lowest sections hold what is left between the legs */
+	while (low < TRUNK_LEVELS / 2 && s->contour[low].girth_m < 0.8f * widest_m)
 		low++;
 	parts_path(s, low, TRUNK_LEVELS - 1, &s->trunk);
 }
