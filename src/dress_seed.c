@@ -10,7 +10,8 @@
  */
 #include "dress_private.h"
 
-static const float seed_width = 0.75f; /* of the mesh's edge length, to each side */
+static const float seed_width = 0.75f; /* of the mesh's edge length, to each side; */
+static const float rim_width = 1.5f;   /* of a line along a rim, which has cloth on one side only */
 static const float lengths_differ = 0.3f;
 
 void wrap_diagnose(struct wrap *wrap, const char *kind, int mark_1, int mark_2, const char *text)
@@ -121,12 +122,41 @@ static float nearest_on_line(const struct v3 *line_m, int count, struct v2 p_m, 
 	return best;
 }
 
+/* Does a vertex lie within `width` of the cloth's line, where the body's goes along? */
+static bool near_line(const struct wrap *wrap, const struct cloth_mark *mark, int v, float width,
+		      float body_m, float *along_m, float *lateral_m)
+{
+	return nearest_on_line(wrap->scratch->cloth_line_m, mark->point_count,
+			       wrap->cloth->garment->rest_m[v], along_m, lateral_m) <= width &&
+	       *along_m <= body_m + width;
+}
+
+/* Growth starts from whole triangles: is one near the line? */
+static bool holds_triangle(const struct wrap *wrap, const struct cloth_mark *mark, float width,
+			   float body_m)
+{
+	const struct garment *garment = wrap->cloth->garment;
+	float along_m, lateral_m;
+	for (int t = garment->piece_first_triangle[mark->piece];
+	     t < garment->piece_first_triangle[mark->piece + 1]; t++) {
+		int inside = 0;
+		for (int k = 0; k < 3; k++)
+			inside += near_line(wrap, mark, garment->triangle[t].v[k], width, body_m,
+					    &along_m, &lateral_m);
+		if (inside == 3)
+			return true;
+	}
+	return false;
+}
+
 static int seed_mark(struct wrap *wrap, const struct cloth_mark *mark, const struct body_mark *on)
 {
 	struct cloth *cloth = wrap->cloth;
 	const struct garment *garment = cloth->garment;
 	float body_m = body_line(wrap, on), cloth_m = cloth_line(wrap, mark);
 	float width = seed_width * garment->edge_m;
+	if (!holds_triangle(wrap, mark, width, body_m))
+		width = rim_width * garment->edge_m;
 	int seeds = 0;
 	if (float_abs(body_m - cloth_m) > lengths_differ * float_max(body_m, cloth_m))
 		wrap_diagnose(
@@ -136,9 +166,7 @@ static int seed_mark(struct wrap *wrap, const struct cloth_mark *mark, const str
 	for (int v = garment->piece_first[mark->piece]; v < garment->piece_first[mark->piece + 1];
 	     v++) {
 		float along_m, lateral_m;
-		if (nearest_on_line(wrap->scratch->cloth_line_m, mark->point_count,
-				    garment->rest_m[v], &along_m, &lateral_m) > width ||
-		    along_m > body_m + width)
+		if (!near_line(wrap, mark, v, width, body_m, &along_m, &lateral_m))
 			continue;
 		cloth->goal_m[v] = place_on_body(wrap, on->point_count, along_m, lateral_m);
 		cloth->position_m[v] = cloth->previous_m[v] = cloth->goal_m[v];
