@@ -16,7 +16,7 @@ enum {
 
 #define POINT_STEP_MM 15.0f
 #define STOP_MAX 9.0f
-#define RIM_MM 1.0f /* `down` from a point of the rim means the other rim */
+#define RIM_MM 1.0f /* the other rim lies farther */
 
 /* ---- places ---- */
 
@@ -117,48 +117,62 @@ static bool find_name(struct reader *reader, const char *name, size_t size, stru
 		    reader->piece->name, (int)size > 40 ? 40 : (int)size, name);
 }
 
-/* NAME, NAME/NAME or NAME/NAME/SHARE */
-static bool find_place(struct reader *reader, const char *word, struct v2 *point_mm)
+/* NAME, NAME/NAME or NAME/NAME/SHARE, `size` bytes */
+static bool find_between(struct reader *reader, const char *word, size_t size, struct v2 *point_mm)
 {
-	size_t first = strcspn(word, "/");
-	if (!find_name(reader, word, first, point_mm))
-		return false;
-	if (!word[first])
-		return true;
-	const char *other = word + first + 1;
-	size_t second = strcspn(other, "/");
+	const char *end = word + size, *slash = memchr(word, '/', size);
+	if (!slash)
+		return find_name(reader, word, size, point_mm);
+	const char *other = slash + 1, *second = memchr(other, '/', (size_t)(end - other));
 	struct v2 to_mm;
 	float share = 0.5f;
-	if (!find_name(reader, other, second, &to_mm))
+	if (!find_name(reader, word, (size_t)(slash - word), point_mm) ||
+	    !find_name(reader, other, (size_t)((second ? second : end) - other), &to_mm))
 		return false;
-	if (other[second]) {
-		const char *text = other + second + 1, *end = text + strlen(text);
-		if (!number_read(&text, end, &share) || text != end || share < -1.0f ||
-		    share > 2.0f)
-			return fail(reader, "\"%.60s\": the share must be a number from -1 to 2",
-				    word);
-	}
+	const char *text = second ? second + 1 : end;
+	if (second &&
+	    (!number_read(&text, end, &share) || text != end || share < -1.0f || share > 2.0f))
+		return fail(reader, "\"%.60s\": the share must be a number from -1 to 2", word);
 	*point_mm = v2_lerp(*point_mm, to_mm, share);
 	return true;
 }
 
-/* Straight up or down from a point to the last place where the outline is met. */
-static bool far_rim(struct reader *reader, struct v2 from_mm, float sign, struct v2 *point_mm)
+/* Straight on from a point to the last place where the outline is met. */
+static bool far_rim(struct reader *reader, struct v2 way, struct v2 *point_mm)
 {
 	const struct piece *piece = reader->piece;
-	float far_mm = RIM_MM;
+	float far_mm = 0.0f;
 	for (int i = 0; i < piece->point_count; i++) {
-		struct v2 a = piece->point_mm[i];
-		struct v2 b = piece->point_mm[(i + 1) % piece->point_count];
-		if ((a.x <= from_mm.x) == (b.x <= from_mm.x))
-			continue;
-		float y = v2_lerp(a, b, (from_mm.x - a.x) / (b.x - a.x)).y;
-		far_mm = float_max(far_mm, sign * (y - from_mm.y));
+		struct v2 a = v2_sub(piece->point_mm[i], *point_mm);
+		struct v2 b = v2_sub(piece->point_mm[(i + 1) % piece->point_count], *point_mm);
+		float a_mm = v2_cross(way, a), b_mm = v2_cross(way, b);
+		if ((a_mm < 0.0f) != (b_mm < 0.0f))
+			far_mm = float_max(far_mm,
+					   v2_dot(way, v2_lerp(a, b, a_mm / (a_mm - b_mm))));
 	}
-	*point_mm = (struct v2){from_mm.x, from_mm.y + sign * far_mm};
-	return far_mm > RIM_MM
-		       ? true
-		       : fail(reader, "there is no cloth %s there", sign > 0 ? "up" : "down");
+	*point_mm = v2_add(*point_mm, v2_scale(way, far_mm));
+	return far_mm > RIM_MM ? true
+			       : fail(reader, "\"%.60s\": no cloth lies there", peek(reader));
+}
+
+/* BETWEEN or BETWEEN:WAY */
+static bool find_place(struct reader *reader, const char *word, struct v2 *point_mm)
+{
+	static const struct {
+		const char *name;
+		struct v2 way;
+	} ways[] = {{"up", {0.0f, 1.0f}},
+		    {"down", {0.0f, -1.0f}},
+		    {"left", {-1.0f, 0.0f}},
+		    {"right", {1.0f, 0.0f}}};
+	size_t size = strcspn(word, ":");
+	if (!find_between(reader, word, size, point_mm))
+		return false;
+	for (int i = 0; word[size] && i < COUNT_OF(ways); i++)
+		if (strcmp(word + size + 1, ways[i].name) == 0)
+			return far_rim(reader, ways[i].way, point_mm);
+	return word[size] ? fail(reader, "\"%.60s\": the way must be up, down, left or right", word)
+			  : true;
 }
 
 static bool add_point(struct reader *reader, struct v2 point_mm)
@@ -208,14 +222,9 @@ static bool read_place(struct reader *reader)
 {
 	struct v2 point_mm;
 	bool follows = take(reader, "..");
-	bool first = reader->way_count == 0;
-	float sign = strcmp(peek(reader), "up") == 0     ? 1.0f
-		     : strcmp(peek(reader), "down") == 0 ? -1.0f
-							 : 0.0f;
-	if (first && (follows || sign != 0.0f))
+	if (follows && reader->way_count == 0)
 		return fail(reader, "the line must begin at a named place");
-	if (sign != 0.0f ? !far_rim(reader, reader->way_mm[reader->way_count - 1], sign, &point_mm)
-			 : !find_place(reader, peek(reader), &point_mm))
+	if (!find_place(reader, peek(reader), &point_mm))
 		return false;
 	reader->at++;
 	return follows ? follow_outline(reader, point_mm) : add_point(reader, point_mm);

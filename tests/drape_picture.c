@@ -113,16 +113,22 @@ static bool write_down(const char *path, const struct canvas *c)
 	return written;
 }
 
+static void widen(struct point *low, struct point *high, const struct drape_mesh *mesh)
+{
+	for (int v = 0; v < mesh->vertex_count; v++) {
+		struct point p = mesh->vertex[v];
+		*low = (struct point){fmin(low->x, p.x), fmin(low->y, p.y), fmin(low->z, p.z)};
+		*high = (struct point){fmax(high->x, p.x), fmax(high->y, p.y), fmax(high->z, p.z)};
+	}
+}
+
 bool drape_picture(const char *path, const struct drape_mesh *garment,
 		   const struct drape_mesh *body)
 {
 	struct canvas c;
 	struct point low = {1e9, 1e9, 1e9}, high = {-1e9, -1e9, -1e9};
-	for (int v = 0; v < body->vertex_count; v++) {
-		struct point p = body->vertex[v];
-		low = (struct point){fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z)};
-		high = (struct point){fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z)};
-	}
+	widen(&low, &high, body);
+	widen(&low, &high, garment);
 	c.middle_x = 0.5 * (low.x + high.x);
 	c.middle_y = 0.5 * (low.y + high.y);
 	c.middle_z = 0.5 * (low.z + high.z);

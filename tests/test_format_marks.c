@@ -50,10 +50,15 @@ static void test_places(void)
 
 static void test_ways(void)
 {
-	CHECK(read_marks("front a/d down on x")); /* to the far rim */
+	CHECK(read_marks("front a/d a/d:down on x")); /* to the far rim */
 	check_point(0, -1, 50, -100);
-	CHECK(read_marks("front b/c up on x"));
+	CHECK(read_marks("front b/c b/c:up on x"));
 	check_point(0, -1, 50, 0);
+	CHECK(read_marks("front a/c a/c:left on x"));
+	check_point(0, 0, 50, -50);
+	check_point(0, -1, 0, -50);
+	CHECK(read_marks("front a a/b:right on x"));
+	check_point(0, -1, 100, -50);
 	CHECK(read_marks("front a .. c on x")); /* 200 mm round the corner, not 141 across it */
 	int count = marks.mark[0].point_count;
 	CHECK(count >= 10);
@@ -89,9 +94,10 @@ static void test_refusals(void)
 		"front a top on x",
 		"front a/b/x c on x",
 		"front a/b/7 c on x",
-		"front down a on x",
+		"front a a:up on x",
+		"front a a:away on x",
+		"front a a:down:down on x",
 		"front .. a b on x",
-		"front a down down on x",
 		"front a b on x 1",
 		"front a b on x 1 1",
 		"front a b on x 1 2 3",
