@@ -110,9 +110,10 @@ int cloth_unfold(struct cloth *cloth);
  * triangles. Returns how many were found. */
 int cloth_push_out(struct cloth *cloth, int slice, int slices);
 
-/* Contact alone, exactly and everywhere, until nothing passes through the body: the state in which
- * a cloth comes to rest. */
-void cloth_clean(struct cloth *cloth);
+/* Contact alone, by exact queries, for slice `slice` of `slices` of all particles and triangles;
+ * all slices are a round. When a round finds no edge that passes through the body, the cloth may
+ * rest. Returns how many were found; *units grows by the units spent. */
+int cloth_clean(struct cloth *cloth, int slice, int slices, long *units);
 
 /* Outward normals per vertex for drawing, into `normal` (vertex_count). */
 void cloth_normals(const struct cloth *cloth, struct v3 *normal);

@@ -1,7 +1,7 @@
 /* Folds turned back, edges pushed out: the help that physics would not give (S18). */
 #include "cloth_private.h"
 
-enum { SMOOTH_ROUNDS = 20, EDGE_SAMPLES = 8, CLEAN_ROUNDS = 6 };
+enum { SMOOTH_ROUNDS = 20, EDGE_SAMPLES = 8 };
 
 static const float fold_reach_m = 0.06f; /* a fold matters this near to the body */
 static const float fold_near_m = 0.02f;  /* and so near even when it only leans over */
@@ -132,19 +132,17 @@ int cloth_push_out(struct cloth *cloth, int slice, int slices)
 	return found;
 }
 
-void cloth_clean(struct cloth *cloth)
+int cloth_clean(struct cloth *cloth, int slice, int slices, long *units)
 {
-	for (int round = 0; round < CLEAN_ROUNDS; round++) {
-		for (int v = 0; v < cloth->garment->vertex_count; v++)
-			if (is_particle(cloth, v)) {
-				cloth_look(cloth, v);
-				cloth->scratch->start_m[v] = cloth->position_m[v];
-			}
-		cloth_contact_faces(cloth, 0, 1);
-		int found = cloth_push_out(cloth, 0, 1);
-		cloth_contact(cloth);
-		if (found == 0 && round > 0)
-			break;
-	}
+	int count = cloth->garment->vertex_count;
+	for (int v = 0; v < count; v++)
+		cloth->scratch->start_m[v] = cloth->position_m[v];
+	for (int v = slice; v < count; v += slices)
+		if (is_particle(cloth, v))
+			cloth_look(cloth, v);
+	*units += cloth_contact_faces(cloth, slice, slices);
+	int found = cloth_push_out(cloth, slice, slices);
+	*units += cloth_contact(cloth);
 	cloth_finish(cloth);
+	return found;
 }

@@ -2,22 +2,9 @@
 #include "session_undo.h"
 
 enum {
-	SWEEPS_A_FRAME_MAX = 10,
-	WRAP_SHARE = 3,
-	SWEEPS_BETWEEN_UNFOLDS = 200, /* while RELAX is held */
 	VERTICES_WANTED = 2400,
 	BUDGET_UNITS = 600000,
-	REST_FRAMES = 30, /* so many calm frames, and the cloth sleeps until something touches it */
-	COOL_FRAMES = 90, /* after the last touch momentum begins to fade */
-	SLEEP_FRAMES = 300, /* and here the cloth sleeps in any case */
-	UNFOLDS_MAX = 4,    /* before it may sleep */
-	PUSH_SLICES = 16,
-	PAUSE_FRAMES = 6, /* a pen that rests so long lets the cloth relax under it */
-	EASE_FRAMES = 90, /* and so long it relaxes after the last touch */
 };
-
-static const float calm_m = 0.00002f; /* particles moved less than this in a frame, in the mean */
-static const float ease_least = 0.12f, ease_whole = 0.22f; /* strain_left: friction full, eased */
 
 void session_init(struct session *session, struct arena *arena)
 {
@@ -32,14 +19,6 @@ void session_init(struct session *session, struct arena *arena)
 	session->frame_start_m = ARENA_ARRAY(arena, struct v3, GARMENT_VERTICES_MAX);
 	session->budget_units = BUDGET_UNITS;
 	session->vertices_wanted = VERTICES_WANTED;
-	session->rest_frames = REST_FRAMES;
-}
-
-void session_wake(struct session *session)
-{
-	session->rest_frames = 0;
-	session->untouched_frames = 0;
-	session->unfolds = 0;
 }
 
 void session_release(struct session *session)
@@ -104,150 +83,6 @@ void session_resume(struct session *session, bool wrapping)
 	session_wake(session);
 	if (wrapping)
 		session_wrap(session);
-}
-
-/* ---- one frame ---- */
-
-static long advance_mesh(struct session *session)
-{
-	bool done = false;
-	long units = garment_advance(session->mesher, session->budget_units, &done);
-	if (!done)
-		return units;
-	cloth_reset(&session->cloth, &session->garment, &session->body);
-	session->job = JOB_WRAP;
-	if (!wrap_start(&session->wrap, &session->cloth, &session->document.marks))
-		session->job = JOB_NONE;
-	return units;
-}
-
-static long advance_wrap(struct session *session)
-{
-	/* a share of the budget: the visitor is to see the garment grow */
-	long units = wrap_advance(&session->wrap, session->budget_units / WRAP_SHARE);
-	if (session->wrap.stage == WRAP_DONE) {
-		session_wake(session);
-		session->job = JOB_NONE;
-		session->cloth.settings = cloth_settings_worn();
-	}
-	return units;
-}
-
-/* The mean, not the largest: a crease may tremble for ever between two shapes. */
-static bool is_calm(const struct session *session)
-{
-	const struct cloth *cloth = &session->cloth;
-	float moved = 0.0f;
-	int count = session->garment.vertex_count;
-	for (int v = 0; v < count; v++)
-		moved += v3_distance(cloth->position_m[v], session->frame_start_m[v]);
-	return moved < calm_m * (float)count;
-}
-
-/* Cloth is pinned to be gathered or rolled up: folds are wanted then. */
-static bool is_pinned(const struct session *session)
-{
-	bool pinned = false;
-	for (int p = 0; p < PINS_MAX; p++)
-		pinned |= session->document.pin[p].used;
-	return pinned;
-}
-
-/* Counts towards sleep. Before it sleeps the cloth turns its last folds back, and moves once more;
- * then it is cleaned, so that it lies still exactly outside the body. */
-static void note_rest(struct session *session)
-{
-	session->rest_frames = is_calm(session) ? session->rest_frames + 1 : 0;
-	session->untouched_frames++;
-	if (session->drag.active || session->relaxing)
-		session->untouched_frames = 0;
-	if (session->untouched_frames >= SLEEP_FRAMES)
-		session->rest_frames = REST_FRAMES;
-	if (session->rest_frames < REST_FRAMES || session->untouched_frames == 0)
-		return;
-	if (session->unfolds < UNFOLDS_MAX && !is_pinned(session) &&
-	    cloth_unfold(&session->cloth) > 0) {
-		session->unfolds++;
-		session->rest_frames = 0;
-		session->untouched_frames = COOL_FRAMES;
-		return;
-	}
-	cloth_clean(&session->cloth);
-}
-
-/* Friction holds cloth that lies easy where it was put; no friction holds cloth that is stretched.
- * The strain that a drag has built up flows out while the pen pauses and after it has let go. */
-static void ease_friction(const struct session *session, struct cloth_settings *settings)
-{
-	struct cloth_settings relax = cloth_settings_relax();
-	bool pulling = session->drag.active && session->pause_frames < PAUSE_FRAMES;
-	if (pulling || session->untouched_frames >= EASE_FRAMES)
-		return;
-	float ease = (session->strain_left - ease_least) / (ease_whole - ease_least);
-	ease = float_clamp(ease, 0.0f, 1.0f);
-	settings->friction += ease * (relax.friction - settings->friction);
-	settings->grip += ease * (relax.grip - settings->grip);
-}
-
-/* Cloth that nobody touches calms down: creases would tremble for ever under full momentum. */
-static struct cloth_settings settings_now(const struct session *session)
-{
-	if (session->relaxing)
-		return cloth_settings_relax();
-	struct cloth_settings settings = cloth_settings_worn();
-	int cooling = session->untouched_frames - COOL_FRAMES;
-	float warmth = 1.0f - (float)cooling / (float)(SLEEP_FRAMES - COOL_FRAMES);
-	settings.momentum *= float_clamp(warmth, 0.0f, 1.0f);
-	ease_friction(session, &settings);
-	return settings;
-}
-
-/* The worn cloth moves by the frame's budget: first the hand, then the cloth's own shape. */
-static long advance_cloth(struct session *session)
-{
-	struct cloth *cloth = &session->cloth;
-	long units = 0;
-	memcpy(session->frame_start_m, cloth->position_m,
-	       (size_t)session->garment.vertex_count * sizeof(struct v3));
-	cloth->settings = settings_now(session);
-	session->pause_frames++;
-	if (session->drag.active)
-		units += drag_move(&session->drag, session->drag_target_m);
-	for (int sweep = 0; sweep < SWEEPS_A_FRAME_MAX && units < session->budget_units; sweep++) {
-		if (session->relaxing && cloth->sweep % SWEEPS_BETWEEN_UNFOLDS == 0)
-			cloth_unfold(cloth);
-		units += cloth_sweep(cloth);
-	}
-	cloth_push_out(cloth, session->frame % PUSH_SLICES, PUSH_SLICES);
-	cloth_finish(cloth);
-	note_rest(session);
-	session->strain_left = float_clamp(cloth_strain_mean(cloth) / 0.1f, 0.0f, 1.0f);
-	return units;
-}
-
-static bool cloth_sleeps(const struct session *session)
-{
-	return !session->cloth.worn ||
-	       (session->rest_frames >= REST_FRAMES && !session->drag.active && !session->relaxing);
-}
-
-void session_advance(struct session *session)
-{
-	long units = 0;
-	session->frame++;
-	if (session->job == JOB_MESH)
-		units = advance_mesh(session);
-	else if (session->job == JOB_WRAP)
-		units = advance_wrap(session);
-	else if (!cloth_sleeps(session))
-		units = advance_cloth(session);
-	session->frame_units = units;
-	session->work_units += units;
-}
-
-bool session_busy(const struct session *session)
-{
-	return session->job != JOB_NONE || !cloth_sleeps(session);
 }
 
 static void settle(struct session *session)

@@ -52,6 +52,9 @@ struct session {
 	int untouched_frames;       /* since an edit last woke the cloth */
 	int unfolds;                /* since then */
 	int rest_frames;            /* frames since the cloth last had a reason to move */
+	int clean_frames;           /* 0: still moving; else frames of cleaning begun */
+	int clean_found;            /* edges pushed out in this round of cleaning */
+	bool asleep;                /* clean and at rest: until something touches it */
 	struct v3 *frame_start_m;   /* the cloth as the frame began, to see whether it rests */
 	float strain_left;          /* 0..1 meter: mean stretch of the worn cloth against 10 % */
 	char notice[160];           /* why the last edit was refused; empty: it was taken */

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { POINTS = 10000, FRAMES = 60, QUERIES = POINTS * FRAMES, REPAIR_EVERY = 16, WALK_MAX = 12 };
+enum { POINTS = 10000, FRAMES = 60, QUERIES = POINTS * FRAMES };
 
 static const float shell_m = 0.02f, step_m = 0.003f, turn_rad = PI_F / 180.0f;
 
@@ -58,20 +58,17 @@ static void make_points(struct tracks *tracks)
 
 static double track_own(struct tracks *tracks)
 {
-	static int triangle[POINTS];
+	static struct body_track track[POINTS];
 	double ms = 0.0;
+	long units = 0;
+	for (int i = 0; i < POINTS; i++)
+		track[i].triangle = -1;
 	for (int f = 0; f < FRAMES; f++) {
 		double start = peers_ms();
 		for (int i = 0; i < POINTS; i++) {
 			struct body_hit hit;
-			struct v3 p = tracks->point_m[f * POINTS + i];
-			if (f == 0)
-				body_nearest(&tracks->body, p, 0, &hit);
-			else if ((f + i) % REPAIR_EVERY == 0)
-				body_nearest_from(&tracks->body, p, 0, triangle[i], &hit);
-			else
-				body_walk(&tracks->body, p, triangle[i], WALK_MAX, &hit);
-			triangle[i] = hit.triangle;
+			MUST(body_track(&tracks->body, tracks->point_m[f * POINTS + i], 0,
+					&track[i], &hit, &units));
 			tracks->own_m[f * POINTS + i] = float_abs(hit.distance_m);
 		}
 		ms += f > 0 ? peers_ms() - start : 0.0;
