@@ -25,7 +25,7 @@ const char board_text[] =
 	"active_low = yes\n"
 	"\n"
 	"# Work units that the solver may spend in a frame; auto: the program's own number.\n"
-	"# `kitsuke calibrate` measures it.\n"
+	"# `kitsuke calibrate FILE` measures it and writes it here.\n"
 	"budget = auto\n"
 	"# The station starts anew after so many seconds without a touch; 0: never.\n"
 	"idle_s = 180\n"

@@ -26,6 +26,8 @@ static void help_commands(void)
 	     "  kitsuke record --out TAPE     records attached tablets and buttons\n"
 	     "  kitsuke devices [--descriptor FILE]\n"
 	     "                                what is attached, and what a descriptor yields\n"
+	     "  kitsuke calibrate [BOARD]     how much work fits a frame of this machine; into "
+	     "BOARD\n"
 	     "  kitsuke help [journal|landmarks|marks|tape|board|limits]\n"
 	     "\n"
 	     "Exit status: 0 done, 1 the input is at fault, 2 usage, 3 the machine is at fault.");

@@ -16,6 +16,7 @@ int command_import(int argc, char **argv);
 int command_check(int argc, char **argv);
 int command_record(int argc, char **argv);
 int command_devices(int argc, char **argv);
+int command_calibrate(int argc, char **argv);
 int command_help(int argc, char **argv);
 
 #endif

@@ -8,9 +8,9 @@ static const struct {
 	const char *word;
 	int (*run)(int argc, char **argv);
 } commands[] = {
-	{"replay", command_replay}, {"dress", command_dress},   {"check", command_check},
-	{"import", command_import}, {"record", command_record}, {"devices", command_devices},
-	{"help", command_help},
+	{"replay", command_replay},       {"dress", command_dress},   {"check", command_check},
+	{"import", command_import},       {"record", command_record}, {"devices", command_devices},
+	{"calibrate", command_calibrate}, {"help", command_help},
 };
 
 int main(int argc, char **argv)

@@ -119,10 +119,24 @@ test_dress() {
   expect 0 "$first" dress "$journal" --body "$folder/a-body.obj"
 }
 
+# The measured line goes to its place in the board file; the rest stays, byte for byte.
+test_calibrate() {
+  expect 2 "usage" calibrate one two
+  expect 1 "none.board" calibrate "$folder/none.board"
+  expect 0 "budget = " calibrate "$folder/default.board"
+  expect 0 "a board, sound" check "$folder/default.board"
+  grep -q '^budget = [1-9][0-9]*000$' "$folder/default.board" ||
+    fail "no measured budget in $(cat "$folder/default.board")"
+  "$kitsuke" help board | grep -v '^budget' >"$folder/before"
+  grep -v '^budget' "$folder/default.board" | cmp -s - "$folder/before" ||
+    fail "calibrate changed more than the budget"
+}
+
 test_usage
 test_help
 test_check
 test_dress_faults
 test_import
 test_dress
+test_calibrate
 finish
