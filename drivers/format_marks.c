@@ -271,8 +271,7 @@ static bool add_mark(struct reader *reader)
 	return true;
 }
 
-/* PIECE PLACE PLACE ... */
-static bool read_part(struct reader *reader)
+static bool read_piece(struct reader *reader)
 {
 	reader->piece_index = -1;
 	for (int p = 0; p < PIECES_MAX; p++)
@@ -284,6 +283,14 @@ static bool read_part(struct reader *reader)
 	reader->piece = &reader->pattern->piece[reader->piece_index];
 	reader->way_count = 0;
 	reader->at++;
+	return true;
+}
+
+/* PIECE PLACE PLACE ... */
+static bool read_part(struct reader *reader)
+{
+	if (!read_piece(reader))
+		return false;
 	while (reader->at < reader->word_count && strcmp(peek(reader), "+") != 0 &&
 	       strcmp(peek(reader), "on") != 0)
 		if (!read_place(reader))
@@ -298,6 +305,20 @@ static bool read_stop(struct reader *reader, float *stop)
 		return fail(reader, "\"%.40s\" is not a stop of the landmark, like 1 or 0.5",
 			    peek(reader));
 	reader->at++;
+	return true;
+}
+
+static bool read_pin(struct reader *reader)
+{
+	struct design_marks *marks = reader->marks;
+	if (!read_piece(reader) || !read_place(reader))
+		return false;
+	if (reader->at < reader->word_count)
+		return fail(reader, "a pin is PIECE PLACE and nothing else");
+	if (marks->pin_count == PINS_MAX)
+		return fail(reader, "more than %d pins; leave some out", PINS_MAX);
+	marks->pin[marks->pin_count++] = (struct design_pin){reader->piece_index,
+							     reader->way_mm[0]};
 	return true;
 }
 
@@ -324,6 +345,11 @@ static bool read_mark(struct reader *reader)
 		reader->marks->mark[m].to = to;
 	}
 	return true;
+}
+
+static bool read_line(struct reader *reader)
+{
+	return take(reader, "pin") ? read_pin(reader) : read_mark(reader);
 }
 
 /* Cuts a line into words; none in a comment. False: too many. */
@@ -359,7 +385,7 @@ bool format_marks_read(struct design_marks *marks, const struct pattern *pattern
 			return fail(&reader, "longer than %d bytes", LINE_BYTES_MAX - 1);
 		memcpy(line, at, length);
 		line[length] = '\0';
-		if (!cut_words(&reader, line) || (reader.word_count > 0 && !read_mark(&reader)))
+		if (!cut_words(&reader, line) || (reader.word_count > 0 && !read_line(&reader)))
 			return false;
 	}
 	if (marks->count == 0)

@@ -11,11 +11,16 @@
  *
  * A PLACE is a name that the garment's file gives to a point of the outline; A/B lies halfway
  * between two of them, A/B/0.3 after that share of the way; behind any of these :up, :down, :left
- * or :right means the piece's far rim straight on from there. From place to place the line is straight, or, with `..`
- * between them, follows the outline the shorter way round. Behind a + it goes on in another piece
- * as though both lay end to end. FROM and TO are stops of the landmark's line and shares of the way
- * between them; the whole line if left out; a FROM beyond TO walks it backwards. A line may begin
- * or end beyond the cloth: points meet by their distance from its start. */
+ * or :right means the piece's far rim straight on from there. From place to place the line is
+ * straight, or, with `..` between them, follows the outline the shorter way round. Behind a + it
+ * goes on in another piece as though both lay end to end. FROM and TO are stops of the landmark's
+ * line and shares of the way between them; the whole line if left out; a FROM beyond TO walks it
+ * backwards. A line may begin or end beyond the cloth: points meet by their distance from its
+ * start.
+ *
+ *   pin PIECE PLACE
+ *
+ * holds the cloth there once it is worn. */
 #ifndef FORMAT_MARKS_H
 #define FORMAT_MARKS_H
 
@@ -44,9 +49,16 @@ struct design_mark {
 	float from, to;                /* stops; both 0: the whole line */
 };
 
+struct design_pin {
+	int piece;
+	struct v2 point_mm;
+};
+
 struct design_marks {
 	int count;
 	struct design_mark mark[MARKS_MAX];
+	int pin_count;
+	struct design_pin pin[PINS_MAX];
 };
 
 /* The names in a garment file (format_garment.h) that format_garment_read has taken: its

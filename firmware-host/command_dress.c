@@ -99,7 +99,7 @@ static void run_frame(struct dresser *dresser)
 	show_progress(dresser, false);
 }
 
-/* STEP and SETTLE are taken apart into frames, so that each can be timed and shown. */
+/* STEP, WORN and SETTLE are taken apart into frames, so that each can be timed and shown. */
 static bool apply(struct dresser *dresser, const struct edit *edit)
 {
 	struct session *session = dresser->session;
@@ -108,8 +108,11 @@ static bool apply(struct dresser *dresser, const struct edit *edit)
 			run_frame(dresser);
 		return true;
 	}
-	if (edit->kind == EDIT_SETTLE) {
-		for (int i = 0; i < SETTLE_FRAMES_MAX && session_busy(session); i++)
+	if (edit->kind == EDIT_WORN || edit->kind == EDIT_SETTLE) {
+		bool rests = edit->kind == EDIT_SETTLE;
+		for (int i = 0; i < SETTLE_FRAMES_MAX &&
+				(rests ? session_busy(session) : session->job != JOB_NONE);
+		     i++)
 			run_frame(dresser);
 		return true;
 	}

@@ -70,6 +70,7 @@ static const struct edit_help edit_help[EDIT_KIND_COUNT] = {
 	[EDIT_CLEAR] = {"", "starts over; can be undone"},
 	[EDIT_BUDGET] = {"UNITS", "work units a frame from here on"},
 	[EDIT_STEP] = {"FRAMES", "so many frames pass"},
+	[EDIT_WORN] = {"", "frames pass until the wrap is done; then cloth can be pinned"},
 	[EDIT_SETTLE] = {"", "frames pass until the wrap is done and the cloth rests"},
 };
 
@@ -143,7 +144,11 @@ static void help_marks(void)
 	     "their\n"
 	     "distance from the start, so a line may begin beyond the cloth and end where it "
 	     "likes.\n"
-	     "FROM and TO are stops of the landmark; without them it is taken whole.\n"
+	     "FROM and TO are stops of the landmark; without them it is taken whole. A line\n"
+	     "\n"
+	     "  pin PIECE PLACE\n"
+	     "\n"
+	     "holds the cloth there once it is worn: an ear loop, a button.\n"
 	     "\n"
 	     "  kitsuke import shirt.garment.json --marks shirt.marks --journal shirt.kitsuke\n"
 	     "  kitsuke dress shirt.kitsuke --body anyone.obj --picture shirt.png");

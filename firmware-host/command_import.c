@@ -90,11 +90,31 @@ static void put_marks(FILE *out, const struct design_marks *marks, const int num
 		edit->f[1] = mark->to;
 		put_edit(out, edit, line);
 	}
-	for (int m = 0; m < 2 && marks->count > 0; m++) {
+}
+
+static void put_word(FILE *out, enum edit_kind kind, struct edit *edit, char line[JOURNAL_LINE_MAX])
+{
+	memset(edit, 0, sizeof *edit);
+	edit->kind = kind;
+	put_edit(out, edit, line);
+}
+
+/* Marks are there to be worn. */
+static void put_wearing(FILE *out, const struct design_marks *marks, const int number[PIECES_MAX],
+			struct edit *edit, char line[JOURNAL_LINE_MAX])
+{
+	put_word(out, EDIT_WRAP, edit, line);
+	if (marks->pin_count > 0)
+		put_word(out, EDIT_WORN, edit, line);
+	for (int p = 0; p < marks->pin_count; p++) {
 		memset(edit, 0, sizeof *edit);
-		edit->kind = m == 0 ? EDIT_WRAP : EDIT_SETTLE;
+		edit->kind = EDIT_PIN;
+		edit->i[0] = number[marks->pin[p].piece];
+		edit->f[0] = marks->pin[p].point_mm.x;
+		edit->f[1] = marks->pin[p].point_mm.y;
 		put_edit(out, edit, line);
 	}
+	put_word(out, EDIT_SETTLE, edit, line);
 }
 
 /* The journal as text from malloc; NULL: no memory. */
@@ -112,6 +132,8 @@ static char *write_document(const struct pattern *pattern, const struct design_m
 	put_pieces(out, pattern, number, &edit, line);
 	put_seams(out, pattern, number, &edit, line);
 	put_marks(out, marks, number, &edit, line);
+	if (marks->count > 0)
+		put_wearing(out, marks, number, &edit, line);
 	if (fclose(out) == 0)
 		return text;
 	free(text);

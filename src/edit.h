@@ -39,6 +39,7 @@
 	X(EDIT_CLEAR, "clear", "")    /* start over; can be undone */                              \
 	X(EDIT_BUDGET, "budget", "i") /* work units a frame from here on */                        \
 	X(EDIT_STEP, "step", "i")     /* so many frames of solving */                              \
+	X(EDIT_WORN, "worn", "")      /* frames until the wrap is done */                          \
 	X(EDIT_SETTLE, "settle", "")  /* frames until the wrap is done and the cloth rests */
 
 enum edit_kind {

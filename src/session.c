@@ -85,6 +85,12 @@ void session_resume(struct session *session, bool wrapping)
 		session_wrap(session);
 }
 
+static void finish_wrap(struct session *session)
+{
+	for (int i = 0; i < SETTLE_FRAMES_MAX && session->job != JOB_NONE; i++)
+		session_advance(session);
+}
+
 static void settle(struct session *session)
 {
 	for (int i = 0; i < SETTLE_FRAMES_MAX && session_busy(session); i++)
@@ -139,6 +145,9 @@ static const char *apply(struct session *session, const struct edit *edit)
 		return set_budget(session, edit->i[0]);
 	case EDIT_STEP:
 		return step(session, edit->i[0]);
+	case EDIT_WORN:
+		finish_wrap(session);
+		return NULL;
 	case EDIT_SETTLE:
 		settle(session);
 		return NULL;

@@ -28,6 +28,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 		MUST(!strncmp(fault, "line ", 5));
 		return 0;
 	}
+	MUST(marks.pin_count >= 0 && marks.pin_count <= PINS_MAX);
 	for (int m = 0; m < marks.count; m++) {
 		const struct design_mark *mark = &marks.mark[m];
 		MUST(mark->point_count >= 2 && mark->point_count <= MARK_POINTS_MAX);

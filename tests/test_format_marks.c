@@ -81,6 +81,14 @@ static void test_across_pieces(void)
 	check_point(1, -1, 0, -100);
 }
 
+static void test_pins(void)
+{
+	CHECK(read_marks("front a b on x\npin sleeve.L top/low\npin front d"));
+	CHECK(marks.count == 1 && marks.pin_count == 2 && marks.pin[0].piece == 1);
+	CHECK_NEAR(marks.pin[0].point_mm.y, -50, 1e-3);
+	CHECK_NEAR(marks.pin[1].point_mm.x, 100, 1e-3);
+}
+
 static void test_refusals(void)
 {
 	static const char *const bad[] = {
@@ -103,6 +111,10 @@ static void test_refusals(void)
 		"front a b on x 1 2 3",
 		"front a b on x -1 2",
 		"front a b + on x",
+		"front a b on x\npin front",
+		"front a b on x\npin front a b",
+		"front a b on x\npin rear a",
+		"pin front a",
 		"front a b on x\nfront a b on",
 	};
 	for (int i = 0; i < COUNT_OF(bad); i++) {
@@ -126,6 +138,7 @@ int main(void)
 	test_places();
 	test_ways();
 	test_across_pieces();
+	test_pins();
 	test_refusals();
 	format_places_read(&places, "{", 1);
 	CHECK(places.count == 0);
