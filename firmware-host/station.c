@@ -12,6 +12,7 @@
 #include "kiosk.h"
 #include "live.h"
 #include "options.h"
+#include "resident.h"
 #include "store.h"
 
 #include <errno.h>
@@ -214,6 +215,7 @@ static bool begin_visit(struct station *station)
 
 static bool open_station(struct station *station)
 {
+	resident_begin();
 	station->memory = malloc(KIOSK_MEMORY_BYTES);
 	station->kiosk = calloc(1, sizeof *station->kiosk);
 	station->reports = malloc(sizeof *station->reports);
@@ -236,6 +238,8 @@ static bool open_station(struct station *station)
 		buttons_text(station->buttons, text);
 		say(text);
 	}
+	if (!resident_lock(station->fault))
+		say(station->fault);
 	return true;
 }
 
