@@ -1,4 +1,5 @@
 #include "cloth_private.h"
+#include "cloth_self.h"
 
 enum { FACE_SLICES = 10 }; /* a frame's sweeps: all faces once a frame */
 
@@ -33,6 +34,7 @@ void cloth_init(struct cloth *cloth, struct arena *arena)
 	s->lift_m = ARENA_ARRAY(arena, float, GARMENT_VERTICES_MAX);
 	s->slack_m = ARENA_ARRAY(arena, float, GARMENT_VERTICES_MAX);
 	cloth->scratch = s;
+	cloth->self = cloth_self_init(arena);
 	cloth->settings = cloth_settings_worn();
 }
 
@@ -51,6 +53,7 @@ struct cloth_settings cloth_settings_worn(void)
 		.step_max_m = 0.006f,
 		.seam_step_m = 0.0005f,
 		.faces = true,
+		.thickness_m = 0.002f,
 	};
 }
 
@@ -227,6 +230,7 @@ long cloth_sweep(struct cloth *cloth)
 	units += cloth_shape(cloth);
 	units += cloth_flatten(cloth);
 	pull_held(cloth);
+	units += cloth_self(cloth);
 	bound_steps(cloth);
 	if (cloth->settings.faces)
 		units += cloth_contact_faces(cloth, cloth->sweep % FACE_SLICES, FACE_SLICES);

@@ -44,6 +44,7 @@ struct cloth_settings {
 	float attract_m;   /* pull of drawn pieces to a body farther than 35 mm; 0: none */
 	bool filter_parts; /* each piece only meets the body parts that piece_parts allows */
 	bool faces;        /* also keep edge midpoints and triangle centres outside */
+	float thickness_m; /* cloth stays this far from other cloth; 0: passes through it */
 };
 
 struct cloth {
@@ -68,6 +69,7 @@ struct cloth {
 	int sweep; /* counted for the time-sliced refresh */
 	struct cloth_settings settings;
 	struct cloth_scratch *scratch; /* owned by cloth_*.c */
+	struct cloth_self *self;       /* owned by cloth_self*.c */
 };
 
 void cloth_init(struct cloth *cloth, struct arena *arena);

@@ -1,5 +1,6 @@
 /* The constraints of a cloth: rest shapes, flatness stencils, long-range limits, neighbours. */
 #include "cloth_private.h"
+#include "cloth_self.h"
 
 static const float reach_least_m = 0.04f, reach_most_m = 0.22f;
 enum { REACH_TRIES = 4 * REACHES_PER_VERTEX };
@@ -152,6 +153,7 @@ void cloth_build(struct cloth *cloth)
 	list_edges(cloth);
 	pair_edges(cloth);
 	build_rings(cloth);
+	cloth_self_build(cloth);
 }
 
 /* ---- long-range limits ---- */

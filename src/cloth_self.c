@@ -1,0 +1,265 @@
+#include "cloth_self_private.h"
+
+static const float beyond = -0.25f;   /* least weight of a corner for a vertex to be watched */
+static const float touching = -0.05f; /* ... and to be kept off */
+static const float lost_m = 0.010f;   /* deeper, a remembered side means nothing any more */
+static const float rub = 0.2f;        /* share of the sliding of sheets on one another lost */
+
+struct cloth_self *cloth_self_init(struct arena *arena)
+{
+	struct cloth_self *self = ARENA_ARRAY(arena, struct cloth_self, 1);
+	self->cell_first = ARENA_ARRAY(arena, int, SELF_CELLS + 2);
+	self->cell_item = ARENA_ARRAY(arena, int, GARMENT_TRIANGLES_MAX);
+	self->cell_key = ARENA_ARRAY(arena, uint32_t, GARMENT_TRIANGLES_MAX);
+	self->centre_m = ARENA_ARRAY(arena, struct v3, GARMENT_TRIANGLES_MAX);
+	self->radius_m = ARENA_ARRAY(arena, float, GARMENT_TRIANGLES_MAX);
+	self->across = ARENA_ARRAY(arena, int, 3 * GARMENT_TRIANGLES_MAX);
+	self->owner = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
+	self->garment_size = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
+	self->pair_count = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
+	self->pair = ARENA_ARRAY(arena, int, SELF_PAIRS_A_VERTEX *GARMENT_VERTICES_MAX);
+	self->stamp = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
+	self->crossing = ARENA_ARRAY(arena, struct crossing, SELF_CROSSINGS_MAX);
+	self->cut = ARENA_ARRAY(arena, uint8_t, GARMENT_TRIANGLES_MAX);
+	self->crossed = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
+	self->trapped = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
+	self->root = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
+	self->vote = ARENA_ARRAY(arena, int, 2 * GARMENT_VERTICES_MAX);
+	self->size = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX + 2);
+	return self;
+}
+
+void cloth_self_build(struct cloth *cloth)
+{
+	struct cloth_self *self = cloth->self;
+	size_t vertices = (size_t)cloth->garment->vertex_count;
+	self->turn = 0;
+	self->crossing_count = 0;
+	if (!cloth->welded)
+		return;
+	self_connect(cloth);
+	memset(self->pair_count, 0, vertices);
+	memset(self->trapped, 0, vertices);
+	memset(self->crossed, 0, vertices);
+	memset(self->stamp, 0xff, vertices * sizeof *self->stamp);
+}
+
+/* ---- sides ---- */
+
+bool self_look_over(const struct cloth *cloth, struct v3 p, int t, struct over *over)
+{
+	struct v3 corner[3];
+	self_corners(cloth, t, corner);
+	struct v3 e1 = v3_sub(corner[1], corner[0]), e2 = v3_sub(corner[2], corner[0]);
+	struct v3 d = v3_sub(p, corner[0]), n = v3_cross(e1, e2);
+	float area2 = v3_dot(n, n);
+	if (area2 < 1e-16f)
+		return false;
+	float w1 = v3_dot(v3_cross(d, e2), n) / area2, w2 = v3_dot(v3_cross(e1, d), n) / area2;
+	over->normal = v3_scale(n, 1.0f / sqrtf(area2));
+	over->height = v3_dot(d, over->normal);
+	over->weight[0] = 1.0f - w1 - w2;
+	over->weight[1] = w1;
+	over->weight[2] = w2;
+	return true;
+}
+
+/* Beyond an edge the neighbour has to agree on the side; beyond a rim there is none. */
+static bool has_side(const struct cloth *cloth, struct v3 p, int t, const struct over *over)
+{
+	for (int k = 0; k < 3; k++) {
+		if (over->weight[(k + 2) % 3] >= 0.0f)
+			continue;
+		int f = cloth->self->across[3 * t + k];
+		struct over next;
+		if (over->weight[(k + 2) % 3] < beyond || f < 0 ||
+		    !self_look_over(cloth, p, f / 3, &next) ||
+		    (next.height > 0.0f) != (over->height > 0.0f))
+			return false;
+	}
+	return true;
+}
+
+static bool share_corner(const struct triangle *a, const struct triangle *b)
+{
+	for (int i = 0; i < 9; i++)
+		if (a->v[i / 3] == b->v[i % 3])
+			return true;
+	return false;
+}
+
+/* The side known for a triangle or one beside it; 0: none is. */
+static int remembered(const struct cloth *cloth, int t, const int *pair, int count)
+{
+	int side = 0;
+	for (int i = 0; i < count; i++) {
+		if (!(pair[i] & SELF_DECIDED))
+			continue;
+		if (pair[i] / 4 == t)
+			return pair[i] % 4;
+		if (share_corner(&cloth->triangle[pair[i] / 4], &cloth->triangle[t]))
+			side = pair[i] % 4;
+	}
+	return side;
+}
+
+/* On which side of a triangle a vertex belongs: where nothing is known it is the side on which it
+ * lies, but where sheets cross that proves nothing. */
+static int side_of(const struct cloth *cloth, int v, int t, const struct over *over,
+		   const int *before, int before_count)
+{
+	int side = remembered(cloth, t, before, before_count);
+	if (side)
+		return side;
+	return (over->height > 0.0f ? SELF_FRONT : 0) |
+	       (cloth->self->crossed[v] ? 0 : SELF_DECIDED);
+}
+
+/* Marks the particle and two rings round it: they can't touch it. */
+static void stamp_rings(struct cloth *cloth, int v)
+{
+	const struct cloth_scratch *s = cloth->scratch;
+	int *stamp = cloth->self->stamp;
+	stamp[v] = v;
+	for (int i = s->ring_first[v]; i < s->ring_first[v + 1]; i++) {
+		int w = s->ring[i];
+		if (stamp[w] == v)
+			continue;
+		for (int j = s->ring_first[w]; j < s->ring_first[w + 1]; j++)
+			stamp[s->ring[j]] = v;
+	}
+}
+
+static bool stamped(const struct cloth *cloth, int v, int t)
+{
+	const int *w = cloth->triangle[t].v, *stamp = cloth->self->stamp;
+	return stamp[w[0]] == v || stamp[w[1]] == v || stamp[w[2]] == v;
+}
+
+/* The triangles beside which v is watched from now on; the first ones when there are too many. */
+static void renew_pairs(struct cloth *cloth, int v, const int *near, int near_count)
+{
+	struct cloth_self *self = cloth->self;
+	int *pair = &self->pair[SELF_PAIRS_A_VERTEX * v], before[SELF_PAIRS_A_VERTEX];
+	int before_count = self->pair_count[v], count = 0;
+	float reach = self_reach(cloth);
+	struct over over;
+	memcpy(before, pair, sizeof before);
+	self->pair_count[v] = 0;
+	if (near_count == 0)
+		return;
+	stamp_rings(cloth, v);
+	for (int i = 0; i < near_count && count < SELF_PAIRS_A_VERTEX; i++) {
+		int t = near[i];
+		if (stamped(cloth, v, t) ||
+		    !self_look_over(cloth, cloth->position_m[v], t, &over) ||
+		    float_abs(over.height) > reach ||
+		    !has_side(cloth, cloth->position_m[v], t, &over))
+			continue;
+		pair[count++] = 4 * t + side_of(cloth, v, t, &over, before, before_count);
+	}
+	self->pair_count[v] = (uint8_t)count;
+}
+
+/* ---- keeping apart ---- */
+
+/* Puts v a thickness away from a triangle on its side; both give way. Sheets that rub lose some of
+ * their sliding. */
+static void keep_apart(struct cloth *cloth, int v, int pair)
+{
+	const int *w = cloth->triangle[pair / 4].v;
+	struct v3 *x = cloth->position_m;
+	const struct v3 *start = cloth->scratch->start_m;
+	struct over over;
+	if (!(pair & SELF_DECIDED) || !self_look_over(cloth, x[v], pair / 4, &over))
+		return;
+	float sign = pair & SELF_FRONT ? 1.0f : -1.0f, height = sign * over.height, sum = 1.0f;
+	float lack = cloth->settings.thickness_m - height;
+	if (lack <= 0.0f || height < -lost_m || over.weight[0] < touching ||
+	    over.weight[1] < touching || over.weight[2] < touching)
+		return;
+	struct v3 slide = v3_sub(x[v], start[v]);
+	for (int k = 0; k < 3; k++) {
+		slide = v3_mad(slide, v3_sub(x[w[k]], start[w[k]]), -over.weight[k]);
+		sum += over.weight[k] * over.weight[k];
+	}
+	slide = v3_mad(slide, over.normal, -v3_dot(slide, over.normal));
+	struct v3 step = v3_scale(over.normal, sign * lack / sum);
+	step = v3_mad(step, slide, -rub / sum);
+	x[v] = v3_add(x[v], step);
+	for (int k = 0; k < 3; k++)
+		x[w[k]] = v3_mad(x[w[k]], step, -over.weight[k]);
+}
+
+static long keep_all_apart(struct cloth *cloth)
+{
+	const struct cloth_self *self = cloth->self;
+	long pairs = 0;
+	for (int v = 0; v < cloth->garment->vertex_count; v++) {
+		for (int i = 0; i < self->pair_count[v]; i++)
+			keep_apart(cloth, v, self->pair[SELF_PAIRS_A_VERTEX * v + i]);
+		pairs += self->pair_count[v];
+	}
+	return pairs;
+}
+
+/* ---- the rounds ---- */
+
+/* After a round: with all crossings known. */
+static void judge(struct cloth *cloth)
+{
+	self_find_patches(cloth);
+	if (cloth->self->crossing_count > 0)
+		self_judge_zones(cloth);
+	else
+		memset(cloth->self->crossed, 0, GARMENT_VERTICES_MAX);
+}
+
+/* Slice `slice` of `slices` of all triangles: their crossings, and the pairs of the vertices that
+ * they own. Sides are taken from the second round on, when crossings are known. */
+static long look(struct cloth *cloth, int slice, int slices)
+{
+	struct cloth_self *self = cloth->self;
+	int near[SELF_NEAR_MAX];
+	long units = 0;
+	self_forget_crossings(cloth, slice, slices);
+	for (int t = slice; t < cloth->garment->triangle_count; t += slices) {
+		if (self->radius_m[t] < 0.0f)
+			continue;
+		int count = self_near(cloth, t, near);
+		self_find_crossings(cloth, t, near, count);
+		for (int k = 0; k < 3 && self->turn >= slices; k++) {
+			int v = cloth->triangle[t].v[k];
+			if (self->owner[v] == t)
+				renew_pairs(cloth, v, near, count);
+		}
+		units += 4 + count;
+	}
+	if (slice == slices - 1)
+		judge(cloth);
+	return units;
+}
+
+long cloth_self_look(struct cloth *cloth)
+{
+	long units = self_grid(cloth);
+	cloth->self->turn = SELF_SLICES;
+	for (int slice = 0; slice < 2; slice++)
+		units += look(cloth, 0, 1);
+	return units;
+}
+
+long cloth_self(struct cloth *cloth)
+{
+	struct cloth_self *self = cloth->self;
+	long units = 0;
+	if (!cloth->welded || cloth->settings.thickness_m <= 0.0f)
+		return 0;
+	if (cloth->sweep % SELF_EVERY == 0) {
+		units += self_grid(cloth);
+		units += look(cloth, self->turn % SELF_SLICES, SELF_SLICES);
+		self->turn++;
+	}
+	units += keep_all_apart(cloth);
+	return units + self_pull_crossings(cloth);
+}

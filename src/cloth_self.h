@@ -1,0 +1,30 @@
+/* Cloth against cloth, within a garment and between garments (F1).
+ *
+ * A vertex near another sheet remembers on which side of it it lies and is kept there, a thickness
+ * away; what passes through another sheet all the same is found by exact tests and pulled out along
+ * the curve in which the sheets cross. Both searches go round the cloth in slices, one slice each
+ * SELF_EVERY sweeps, so that a frame's cost is bounded. Only welded cloth meets itself: pieces that
+ * still grow may lie over one another.
+ */
+#ifndef CLOTH_SELF_H
+#define CLOTH_SELF_H
+
+#include "cloth.h"
+
+struct cloth_self *cloth_self_init(struct arena *arena);
+
+/* Forgets sides and crossings and takes the cloth's triangles as they are now (after a weld, a
+ * restore). Nothing is kept apart before one round of slices has looked for crossings. */
+void cloth_self_build(struct cloth *cloth);
+
+/* The sweep's part; units spent (triangles looked at, pairs and crossings projected). Does nothing
+ * where settings.thickness_m is 0. */
+long cloth_self(struct cloth *cloth);
+
+/* Edges that passed through other triangles when last looked at. */
+int cloth_crossings(const struct cloth *cloth);
+
+/* Looks at the whole cloth at once instead of by slices; units. */
+long cloth_self_look(struct cloth *cloth);
+
+#endif
