@@ -88,7 +88,7 @@ $(TESTS) $(BENCH) $(FUZZ): %: %.o $(B)/kitsuke.a
 $(TOOLS): %: %.o $$(call objects,$$(wildcard $$(subst $(B)/,,$$@)_*.c)) $(B)/kitsuke.a
 $(FUZZ): LINK := -fsanitize=fuzzer
 # Calls that a program of the tests wants to see pass: the linker sends our calls of f to __wrap_f.
-$(B)/tests/bench_frame: LINK := -Wl,--wrap=drag_move
+$(B)/tests/bench_frame: LINK := -Wl,--wrap=drag_move,--wrap=cloth_self
 $(B)/tests/test_allocation: LINK := $(patsubst %,-Wl$(comma)--wrap=%,malloc calloc realloc \
                              aligned_alloc posix_memalign strdup strndup)
 

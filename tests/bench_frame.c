@@ -9,8 +9,10 @@
  *
  * "whole frame" is kiosk_frame, without the picture.
  *
- * The drag is measured inside session_advance: the linker sends its call of drag_move through
- * __wrap_drag_move below (Makefile), so that the core needs no clock. */
+ * The drag and the contact of cloth with cloth are measured inside session_advance: the linker
+ * sends the calls of drag_move and cloth_self through __wrap_* below (Makefile), so that the core
+ * needs no clock. "cloth sweeps" is without both. */
+#include "cloth_self.h"
 #include "kiosk.h"
 #include "snapshot.h"
 #include "tape.h"
@@ -37,6 +39,7 @@ enum stage {
 	STAGE_WRAP,
 	STAGE_DRAG,
 	STAGE_CLOTH,
+	STAGE_SELF,
 	STAGE_FRAME,
 	STAGE_DRAW,
 	STAGE_COUNT,
@@ -45,9 +48,10 @@ enum stage {
 static const struct {
 	const char *name, *work;
 } stages[STAGE_COUNT] = {
-	{"pen", "reports"},        {"face", "samples"},      {"edits", "edits"},
-	{"mesh job", "units"},     {"wrap job", "units"},    {"drag", "units"},
-	{"cloth sweeps", "units"}, {"whole frame", "units"}, {"draw", "picture"},
+	{"pen", "reports"},        {"face", "samples"},       {"edits", "edits"},
+	{"mesh job", "units"},     {"wrap job", "units"},     {"drag", "units"},
+	{"cloth sweeps", "units"}, {"self-contact", "units"}, {"whole frame", "units"},
+	{"draw", "picture"},
 };
 
 struct instant {
@@ -117,6 +121,23 @@ long __wrap_drag_move(struct drag *drag, struct v3 target_m)
 	return drag_units;
 }
 
+static struct instant self_spent;
+static long self_units;
+
+long __real_cloth_self(struct cloth *cloth);
+long __wrap_cloth_self(struct cloth *cloth);
+
+long __wrap_cloth_self(struct cloth *cloth)
+{
+	struct instant start = instant_now();
+	long units = __real_cloth_self(cloth);
+	struct instant spent = since(start);
+	self_spent.us += spent.us;
+	self_spent.cpu_us += spent.cpu_us;
+	self_units += units;
+	return units;
+}
+
 /* ---- the reference ---- */
 
 static struct v3 ref_point[REF_TRIANGLES + 2];
@@ -158,7 +179,8 @@ static void advance_timed(struct kiosk *kiosk)
 {
 	enum session_job job = kiosk->session.job;
 	drag_spent = (struct instant){0};
-	drag_units = 0;
+	self_spent = (struct instant){0};
+	drag_units = self_units = 0;
 	struct instant start = instant_now();
 	kiosk_advance(kiosk);
 	struct instant spent = since(start);
@@ -168,9 +190,11 @@ static void advance_timed(struct kiosk *kiosk)
 	} else if (job == JOB_WRAP) {
 		series_add(&bench.stage[STAGE_WRAP], spent, (double)units);
 	} else if (units > 0) {
-		spent.us -= drag_spent.us;
-		spent.cpu_us -= drag_spent.cpu_us;
-		series_add(&bench.stage[STAGE_CLOTH], spent, (double)(units - drag_units));
+		spent.us -= drag_spent.us + self_spent.us;
+		spent.cpu_us -= drag_spent.cpu_us + self_spent.cpu_us;
+		units -= drag_units + self_units;
+		series_add(&bench.stage[STAGE_CLOTH], spent, (double)units);
+		series_add(&bench.stage[STAGE_SELF], self_spent, (double)self_units);
 	}
 	if (drag_spent.us > 0.0)
 		series_add(&bench.stage[STAGE_DRAG], drag_spent, (double)drag_units);
