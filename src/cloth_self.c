@@ -9,10 +9,8 @@ struct cloth_self *cloth_self_init(struct arena *arena)
 {
 	struct cloth_self *self = ARENA_ARRAY(arena, struct cloth_self, 1);
 	self->cell_first = ARENA_ARRAY(arena, int, SELF_CELLS + 2);
-	self->cell_item = ARENA_ARRAY(arena, int, GARMENT_TRIANGLES_MAX);
-	self->cell_key = ARENA_ARRAY(arena, uint32_t, GARMENT_TRIANGLES_MAX);
-	self->centre_m = ARENA_ARRAY(arena, struct v3, GARMENT_TRIANGLES_MAX);
-	self->radius_m = ARENA_ARRAY(arena, float, GARMENT_TRIANGLES_MAX);
+	self->cell_item = ARENA_ARRAY(arena, struct self_item, GARMENT_TRIANGLES_MAX);
+	self->triangle = ARENA_ARRAY(arena, struct self_triangle, GARMENT_TRIANGLES_MAX);
 	self->across = ARENA_ARRAY(arena, int, 3 * GARMENT_TRIANGLES_MAX);
 	self->owner = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
 	self->garment_size = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
@@ -224,7 +222,7 @@ static long look(struct cloth *cloth, int slice, int slices)
 	long units = 0;
 	self_forget_crossings(cloth, slice, slices);
 	for (int t = slice; t < cloth->garment->triangle_count; t += slices) {
-		if (self->radius_m[t] < 0.0f)
+		if (self->triangle[t].radius_m < 0.0f)
 			continue;
 		int count = self_near(cloth, t, near);
 		self_find_crossings(cloth, t, near, count);

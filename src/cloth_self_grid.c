@@ -2,9 +2,9 @@
  * counting sort, so that its order is that of the triangles. */
 #include "cloth_self_private.h"
 
-static const float cell_least_m = 0.01f;
-static const float flat_edges = 3.0f;  /* so near on one piece ... */
-static const float flat_cosine = 0.3f; /* and facing so much alike, triangles are one sheet */
+static const float radius_edges =
+	0.8f;                          /* larger triangles, in edge lengths, are seen only so far */
+static const float sheet_edges = 2.5f; /* so near on one piece, and facing alike, is one sheet */
 
 /* ---- how the cloth hangs together ---- */
 
@@ -84,6 +84,13 @@ void self_connect(struct cloth *cloth)
 			if (self->owner[cloth->triangle[t].v[k]] < 0)
 				self->owner[cloth->triangle[t].v[k]] = t;
 	measure_patches(cloth, NULL, self->garment_size);
+	for (int t = 0; t < cloth->garment->triangle_count; t++) {
+		const int *v = cloth->garment->triangle[t].v;
+		const struct v2 *rest = cloth->garment->rest_m;
+		self->triangle[t].piece = cloth->garment->triangle_piece[t];
+		self->triangle[t].rest_m = v2_scale(
+			v2_add(v2_add(rest[v[0]], rest[v[1]]), rest[v[2]]), 1.0f / 3.0f);
+	}
 }
 
 /* A patch that a closed curve of crossings cuts off and that is the smaller part of its garment has
@@ -110,67 +117,69 @@ void self_find_patches(struct cloth *cloth)
 
 /* ---- the grid ---- */
 
-static uint32_t cell_key(float cell_m, struct v3 p, int x, int y, int z)
+/* A cell's place along x, and the bucket where its row along x begins: a row's cells lie in
+ * neighbouring buckets. */
+struct cell {
+	int x, row;
+};
+
+static int axis_cell(float cell_m, float along_m)
 {
-	/* 10 bits an axis: 1024 cells of 30 mm are 30 m */
-	uint32_t i = (uint32_t)((int)(p.x / cell_m + 512.0f) + x) & 1023u;
-	uint32_t j = (uint32_t)((int)(p.y / cell_m + 512.0f) + y) & 1023u;
-	uint32_t k = (uint32_t)((int)(p.z / cell_m + 512.0f) + z) & 1023u;
-	return i << 20 | j << 10 | k;
+	return int_clamp((int)(along_m / cell_m + 0.5f * SELF_ROW), 1, SELF_ROW - 2);
 }
 
-static uint32_t cell_bucket(uint32_t key)
+static struct cell cell_of(int x, int y, int z)
 {
-	return (key * 2654435761u >> 16) % SELF_CELLS;
+	uint32_t row = (uint32_t)y * 2654435761u ^ (uint32_t)z * 2246822519u;
+	return (struct cell){x, (int)((row >> 8) % (SELF_CELLS - SELF_ROW))};
 }
 
-/* The mean of a triangle's corners, and the farthest corner from it. */
-static void bound_triangles(struct cloth *cloth)
+/* The mean of a triangle's corners, the farthest corner from it, and its normal. */
+static void bound_triangle(struct cloth *cloth, int t, float cap)
 {
 	struct cloth_self *self = cloth->self;
-	float most = 0.0f, cap = 2.0f * cloth->garment->edge_m;
+	struct self_triangle *bound = &self->triangle[t];
 	struct v3 corner[3];
-	for (int t = 0; t < cloth->garment->triangle_count; t++) {
-		self->radius_m[t] = -1.0f;
-		if (!triangle_placed(cloth, t))
-			continue;
-		self_corners(cloth, t, corner);
-		struct v3 centre = v3_scale(v3_add(v3_add(corner[0], corner[1]), corner[2]),
-					    1.0f / 3.0f);
-		float d2 = 0.0f;
-		for (int k = 0; k < 3; k++) {
-			struct v3 d = v3_sub(corner[k], centre);
-			d2 = float_max(d2, v3_dot(d, d));
-		}
-		self->centre_m[t] = centre;
-		self->radius_m[t] = float_min(sqrtf(d2), cap);
-		most = float_max(most, self->radius_m[t]);
+	bound->radius_m = -1.0f;
+	if (!triangle_placed(cloth, t))
+		return;
+	self_corners(cloth, t, corner);
+	bound->centre_m = v3_scale(v3_add(v3_add(corner[0], corner[1]), corner[2]), 1.0f / 3.0f);
+	bound->normal = v3_cross(v3_sub(corner[1], corner[0]), v3_sub(corner[2], corner[0]));
+	float d2 = 0.0f;
+	for (int k = 0; k < 3; k++) {
+		struct v3 d = v3_sub(corner[k], bound->centre_m);
+		d2 = float_max(d2, v3_dot(d, d));
 	}
-	self->cell_m = float_max(2.0f * most + self_reach(cloth), cell_least_m);
+	bound->radius_m = float_min(sqrtf(d2), cap);
 }
 
 long self_grid(struct cloth *cloth)
 {
 	struct cloth_self *self = cloth->self;
-	int triangles = cloth->garment->triangle_count;
-	int *first = self->cell_first;
-	bound_triangles(cloth);
+	int triangles = cloth->garment->triangle_count, *first = self->cell_first;
+	float cap = radius_edges * cloth->garment->edge_m;
+	self->cell_m = 2.0f * cap + self_reach(cloth);
 	memset(first, 0, (SELF_CELLS + 2) * sizeof *first);
-	for (int pass = 0; pass < 2; pass++) {
-		for (int t = 0; t < triangles; t++) {
-			if (self->radius_m[t] < 0.0f)
-				continue;
-			uint32_t key = cell_key(self->cell_m, self->centre_m[t], 0, 0, 0);
-			uint32_t bucket = cell_bucket(key);
-			if (pass == 0) {
-				first[bucket + 2]++;
-			} else {
-				self->cell_key[first[bucket + 1]] = key;
-				self->cell_item[first[bucket + 1]++] = t;
-			}
-		}
-		for (int b = 0; pass == 0 && b < SELF_CELLS; b++)
-			first[b + 2] += first[b + 1];
+	for (int t = 0; t < triangles; t++) {
+		struct self_triangle *bound = &self->triangle[t];
+		bound_triangle(cloth, t, cap);
+		if (bound->radius_m < 0.0f)
+			continue;
+		struct cell cell = cell_of(axis_cell(self->cell_m, bound->centre_m.x),
+					   axis_cell(self->cell_m, bound->centre_m.y),
+					   axis_cell(self->cell_m, bound->centre_m.z));
+		bound->row = cell.row;
+		bound->x = cell.x;
+		first[cell.row + cell.x + 2]++;
+	}
+	for (int b = 0; b < SELF_CELLS; b++)
+		first[b + 2] += first[b + 1];
+	for (int t = 0; t < triangles; t++) {
+		const struct self_triangle *bound = &self->triangle[t];
+		if (bound->radius_m >= 0.0f)
+			self->cell_item[first[bound->row + bound->x + 1]++] = (struct self_item){
+				bound->centre_m, bound->radius_m, t, bound->row};
 	}
 	return triangles;
 }
@@ -184,48 +193,36 @@ static bool share_corner(const struct triangle *a, const struct triangle *b)
 	return false;
 }
 
-static struct v2 rest_centre(const struct garment *garment, int t)
-{
-	const int *v = garment->triangle[t].v;
-	return v2_scale(
-		v2_add(v2_add(garment->rest_m[v[0]], garment->rest_m[v[1]]), garment->rest_m[v[2]]),
-		1.0f / 3.0f);
-}
-
 /* Parts of one sheet, as most neighbours are: near on the piece and facing alike. */
-static bool one_sheet(const struct cloth *cloth, int t, int u)
+static bool one_sheet(const struct cloth *cloth, const struct self_triangle *a,
+		      const struct self_triangle *b)
 {
-	const struct garment *garment = cloth->garment;
-	struct v3 a[3], b[3];
-	if (garment->triangle_piece[t] != garment->triangle_piece[u] ||
-	    v2_distance(rest_centre(garment, t), rest_centre(garment, u)) >
-		    flat_edges * garment->edge_m)
-		return false;
-	self_corners(cloth, t, a);
-	self_corners(cloth, u, b);
-	struct v3 n = v3_cross(v3_sub(a[1], a[0]), v3_sub(a[2], a[0]));
-	struct v3 m = v3_cross(v3_sub(b[1], b[0]), v3_sub(b[2], b[0]));
-	float dot = v3_dot(n, m);
-	return dot > 0.0f && dot * dot > flat_cosine * flat_cosine * v3_dot(n, n) * v3_dot(m, m);
+	float near_m = sheet_edges * cloth->garment->edge_m;
+	struct v2 d = v2_sub(a->rest_m, b->rest_m);
+	return a->piece == b->piece && v2_dot(d, d) < near_m * near_m &&
+	       v3_dot(a->normal, b->normal) > 0.0f;
 }
 
 int self_near(const struct cloth *cloth, int t, int near[SELF_NEAR_MAX])
 {
 	const struct cloth_self *self = cloth->self;
-	struct v3 centre = self->centre_m[t];
-	float reach = self->radius_m[t] + self_reach(cloth);
-	int count = 0;
-	for (int cell = 0; cell < 27; cell++) {
-		uint32_t key = cell_key(self->cell_m, centre, cell % 3 - 1, cell / 3 % 3 - 1,
-					cell / 9 - 1);
-		uint32_t bucket = cell_bucket(key);
-		for (int i = self->cell_first[bucket]; i < self->cell_first[bucket + 1]; i++) {
-			int u = self->cell_item[i];
-			struct v3 d = v3_sub(self->centre_m[u], centre);
-			float most = reach + self->radius_m[u];
-			if (self->cell_key[i] == key && v3_dot(d, d) < most * most &&
+	const struct self_triangle *at = &self->triangle[t];
+	float reach = at->radius_m + self_reach(cloth);
+	int count = 0, y = axis_cell(self->cell_m, at->centre_m.y) - 1,
+	    z = axis_cell(self->cell_m, at->centre_m.z) - 1;
+	for (int row = 0; row < 9; row++) {
+		struct cell cell = cell_of(at->x - 1, y + row % 3, z + row / 3);
+		int begin = self->cell_first[cell.row + cell.x];
+		int end = self->cell_first[cell.row + cell.x + 3];
+		for (int i = begin; i < end; i++) {
+			const struct self_item *item = &self->cell_item[i];
+			int u = item->triangle;
+			struct v3 d = v3_sub(item->centre_m, at->centre_m);
+			float most = reach + item->radius_m;
+			if (v3_dot(d, d) < most * most && item->row == cell.row &&
+			    !one_sheet(cloth, at, &self->triangle[u]) &&
 			    !share_corner(&cloth->triangle[t], &cloth->triangle[u]) &&
-			    !one_sheet(cloth, t, u) && count < SELF_NEAR_MAX)
+			    count < SELF_NEAR_MAX)
 				near[count++] = u;
 		}
 	}

@@ -12,7 +12,8 @@ enum {
 	SELF_CROSSINGS_MAX = 4096, /* a sleeve through a trunk has some hundred */
 	SELF_FRONT = 1,      /* bits of a pair: the vertex belongs in front of the triangle, */
 	SELF_DECIDED = 2,    /* and this is known */
-	SELF_CELLS = 16384,  /* a power of two */
+	SELF_ROW = 1024,     /* cells along x: 40 m */
+	SELF_CELLS = 16384,  /* buckets, SELF_ROW of them the last row's end */
 	SELF_NEAR_MAX = 128, /* triangles beside one triangle; crumpled cloth has the rest of
 				them next time */
 };
@@ -22,16 +23,29 @@ struct crossing {
 	int edge, triangle;
 };
 
+/* A triangle in the grid; copied, so that a search reads memory in order. */
+struct self_item {
+	struct v3 centre_m;
+	float radius_m;
+	int triangle, row;
+};
+
+/* What the search has to know of a triangle. */
+struct self_triangle {
+	struct v3 centre_m, normal; /* not unit */
+	float radius_m;             /* below 0: not placed */
+	struct v2 rest_m;           /* its centre on the piece */
+	int piece, row, x;          /* place in the grid */
+};
+
 struct cloth_self {
 	/* the grid of triangles (cloth_self_grid.c) */
 	float cell_m;
-	int *cell_first;     /* per cell + 1 */
-	int *cell_item;      /* triangles */
-	uint32_t *cell_key;  /* per item: its place, since cells share buckets */
-	struct v3 *centre_m; /* per triangle */
-	float *radius_m;     /* per triangle; below 0: not placed */
-	int *across;         /* 3 per triangle: 3 * neighbour + its edge; -1: a rim */
-	int *owner;          /* per particle: the triangle in whose slice it is looked at */
+	int *cell_first; /* per cell + 1 */
+	struct self_item *cell_item;
+	struct self_triangle *triangle;
+	int *across;       /* 3 per triangle: 3 * neighbour + its edge; -1: a rim */
+	int *owner;        /* per particle: the triangle in whose slice it is looked at */
 	int *garment_size; /* per particle: of the sewn garment that it belongs to, in particles */
 	/* sides (cloth_self.c) */
 	uint8_t *pair_count; /* per particle */
