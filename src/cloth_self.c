@@ -23,6 +23,7 @@ struct cloth_self *cloth_self_init(struct arena *arena)
 	self->trapped = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
 	self->root = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
 	self->vote = ARENA_ARRAY(arena, int, 2 * GARMENT_VERTICES_MAX);
+	self->voters = ARENA_ARRAY(arena, int, 2 * GARMENT_VERTICES_MAX);
 	self->size = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX + 2);
 	return self;
 }

@@ -58,8 +58,9 @@ struct cloth_self {
 	uint8_t *crossed; /* per particle: in a contact zone in which sheets cross */
 	uint8_t *trapped; /* per particle: in a patch that has come through another sheet */
 	int *root, *size; /* per particle, while patches are found */
-	int *vote;        /* 2 per particle: of zones, on sheets that face each other and alike */
-	int turn;         /* slices looked at since the build */
+	int *vote,
+		*voters; /* 2 per particle: of zones, on sheets that face each other, and alike */
+	int turn;        /* slices looked at since the build */
 };
 
 /* Where a point lies over a triangle: its height above the plane, and the weights of the point

@@ -9,6 +9,8 @@
  * sheets, and so cannot judge where a curve ends at a rim. */
 #include "cloth_self_private.h"
 
+enum { CLEAR_MAJORITY = 2 }; /* three of four voters: half of them more for than against */
+
 static int root_of(int *root, int v)
 {
 	while (root[v] != v)
@@ -98,6 +100,7 @@ static void vote(struct cloth *cloth, int v, int pair)
 	if ((over.height > 0.0f) == (self->trapped[v] || self->trapped[cloth->triangle[t].v[0]]))
 		front = -front;
 	self->vote[2 * root + alike] += front;
+	self->voters[2 * root + alike] += front != 0;
 }
 
 /* The pair with the side that its zone has chosen; undecided when it has not. */
@@ -110,6 +113,8 @@ static int decide(struct cloth *cloth, int v, int pair)
 	if (!self_look_over(cloth, cloth->position_m[v], t, &over))
 		return 4 * t;
 	int front = ballot(cloth, v, t, over.normal, &alike) * self->vote[2 * root + alike];
+	if (CLEAR_MAJORITY * int_max(front, -front) < self->voters[2 * root + alike])
+		front = 0;
 	return 4 * t + (front > 0 ? SELF_DECIDED + SELF_FRONT : front < 0 ? SELF_DECIDED : 0);
 }
 
@@ -120,7 +125,8 @@ void self_judge_zones(struct cloth *cloth)
 	find_zones(cloth);
 	keep_crossed_zones(cloth);
 	for (int v = 0; v < vertices; v++)
-		self->vote[2 * v] = self->vote[2 * v + 1] = 0;
+		self->vote[2 * v] = self->vote[2 * v + 1] = self->voters[2 * v] =
+			self->voters[2 * v + 1] = 0;
 	for (int v = 0; v < vertices; v++)
 		for (int i = 0; self->crossed[v] && i < self->pair_count[v]; i++)
 			vote(cloth, v, self_pair(self, v, i));

@@ -44,6 +44,7 @@ static struct cloth_settings growing(void)
 	set.grip = 0.0f;
 	set.filter_parts = true;
 	set.faces = false;
+	set.thickness_m = 0.0f; /* what lies over itself is still to come apart */
 	set.seam_step_m = 0.0f;
 	set.attract_m = 0.001f;
 	return set;
