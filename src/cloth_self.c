@@ -32,7 +32,7 @@ void cloth_self_build(struct cloth *cloth)
 {
 	struct cloth_self *self = cloth->self;
 	size_t vertices = (size_t)cloth->garment->vertex_count;
-	self->turn = 0;
+	self->looked = false;
 	self->crossing_count = 0;
 	if (!cloth->welded)
 		return;
@@ -135,27 +135,42 @@ static bool stamped(const struct cloth *cloth, int v, int t)
 	return stamp[w[0]] == v || stamp[w[1]] == v || stamp[w[2]] == v;
 }
 
-/* The triangles beside which v is watched from now on; the first ones when there are too many. */
+/* Puts a triangle among the nearest ones, of which there are `count`; returns how many then. */
+static int take_nearest(int *pair, float *far_m, int count, int taken, float distance_m)
+{
+	if (count == SELF_PAIRS_A_VERTEX && far_m[count - 1] <= distance_m)
+		return count;
+	int at = count < SELF_PAIRS_A_VERTEX ? count++ : count - 1;
+	for (; at > 0 && far_m[at - 1] > distance_m; at--) {
+		pair[at] = pair[at - 1];
+		far_m[at] = far_m[at - 1];
+	}
+	pair[at] = taken;
+	far_m[at] = distance_m;
+	return count;
+}
+
+/* The triangles beside which v is watched from now on: the nearest ones when there are too many. */
 static void renew_pairs(struct cloth *cloth, int v, const int *near, int near_count)
 {
 	struct cloth_self *self = cloth->self;
 	int *pair = &self->pair[SELF_PAIRS_A_VERTEX * v], before[SELF_PAIRS_A_VERTEX];
 	int before_count = self->pair_count[v], count = 0;
-	float reach = self_reach(cloth);
+	float far_m[SELF_PAIRS_A_VERTEX], reach = self_reach(cloth);
+	struct v3 p = cloth->position_m[v];
 	struct over over;
 	memcpy(before, pair, sizeof before);
 	self->pair_count[v] = 0;
 	if (near_count == 0)
 		return;
 	stamp_rings(cloth, v);
-	for (int i = 0; i < near_count && count < SELF_PAIRS_A_VERTEX; i++) {
+	for (int i = 0; i < near_count; i++) {
 		int t = near[i];
-		if (stamped(cloth, v, t) ||
-		    !self_look_over(cloth, cloth->position_m[v], t, &over) ||
-		    float_abs(over.height) > reach ||
-		    !has_side(cloth, cloth->position_m[v], t, &over))
+		if (stamped(cloth, v, t) || !self_look_over(cloth, p, t, &over) ||
+		    float_abs(over.height) > reach || !has_side(cloth, p, t, &over))
 			continue;
-		pair[count++] = 4 * t + side_of(cloth, v, t, &over, before, before_count);
+		int side = side_of(cloth, v, t, &over, before, before_count);
+		count = take_nearest(pair, far_m, count, 4 * t + side, float_abs(over.height));
 	}
 	self->pair_count[v] = (uint8_t)count;
 }
@@ -215,7 +230,7 @@ static void judge(struct cloth *cloth)
 }
 
 /* Slice `slice` of `slices` of all triangles: their crossings, and the pairs of the vertices that
- * they own. Sides are taken from the second round on, when crossings are known. */
+ * they own. */
 static long look(struct cloth *cloth, int slice, int slices)
 {
 	struct cloth_self *self = cloth->self;
@@ -227,7 +242,7 @@ static long look(struct cloth *cloth, int slice, int slices)
 			continue;
 		int count = self_near(cloth, t, near);
 		self_find_crossings(cloth, t, near, count);
-		for (int k = 0; k < 3 && self->turn >= slices; k++) {
+		for (int k = 0; k < 3; k++) {
 			int v = cloth->triangle[t].v[k];
 			if (self->owner[v] == t)
 				renew_pairs(cloth, v, near, count);
@@ -241,24 +256,20 @@ static long look(struct cloth *cloth, int slice, int slices)
 
 long cloth_self_look(struct cloth *cloth)
 {
-	long units = self_grid(cloth);
-	cloth->self->turn = SELF_SLICES;
-	for (int slice = 0; slice < 2; slice++)
-		units += look(cloth, 0, 1);
-	return units;
+	cloth->self->looked = true;
+	return self_grid(cloth) + look(cloth, 0, 1);
 }
 
 long cloth_self(struct cloth *cloth)
 {
-	struct cloth_self *self = cloth->self;
 	long units = 0;
 	if (!cloth->welded || cloth->settings.thickness_m <= 0.0f)
 		return 0;
-	if (cloth->sweep % SELF_EVERY == 0) {
-		units += self_grid(cloth);
-		units += look(cloth, self->turn % SELF_SLICES, SELF_SLICES);
-		self->turn++;
-	}
+	if (!cloth->self->looked)
+		units += cloth_self_look(cloth);
+	if (cloth->sweep % SELF_EVERY == 0)
+		units += self_grid(cloth) +
+			 look(cloth, cloth->sweep / SELF_EVERY % SELF_SLICES, SELF_SLICES);
 	units += keep_all_apart(cloth);
 	return units + self_pull_crossings(cloth);
 }

@@ -14,7 +14,7 @@
 struct cloth_self *cloth_self_init(struct arena *arena);
 
 /* Forgets sides and crossings and takes the cloth's triangles as they are now (after a weld, a
- * restore). Nothing is kept apart before one round of slices has looked for crossings. */
+ * restore). The next sweep looks at the whole cloth. */
 void cloth_self_build(struct cloth *cloth);
 
 /* The sweep's part; units spent (triangles looked at, pairs and crossings projected). Does nothing
@@ -24,7 +24,7 @@ long cloth_self(struct cloth *cloth);
 /* Edges that passed through other triangles when last looked at. */
 int cloth_crossings(const struct cloth *cloth);
 
-/* Looks at the whole cloth at once instead of by slices; units. */
+/* Looks at the whole cloth at once; units. */
 long cloth_self_look(struct cloth *cloth);
 
 #endif

@@ -60,7 +60,7 @@ struct cloth_self {
 	int *root, *size; /* per particle, while patches are found */
 	int *vote,
 		*voters; /* 2 per particle: of zones, on sheets that face each other, and alike */
-	int turn;        /* slices looked at since the build */
+	bool looked;     /* at the whole cloth, once since the build */
 };
 
 /* Where a point lies over a triangle: its height above the plane, and the weights of the point

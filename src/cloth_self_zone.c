@@ -9,7 +9,7 @@
  * sheets, and so cannot judge where a curve ends at a rim. */
 #include "cloth_self_private.h"
 
-enum { CLEAR_MAJORITY = 2 }; /* three of four voters: half of them more for than against */
+enum { CLEAR_MAJORITY = 3 }; /* two of three voters: a third of them more for than against */
 
 static int root_of(int *root, int v)
 {

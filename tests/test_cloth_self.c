@@ -39,7 +39,7 @@ static void mesh(int pieces, int vertices)
 	bool done = false;
 	memset(&pattern, 0, sizeof pattern);
 	for (int p = 0; p < pieces; p++)
-		add_rectangle(p, 200.0f, 240.0f);
+		add_rectangle(p, 200.0f, 240.0f - 20.0f * (float)p);
 	CHECK(!garment_start(job, &garment, &pattern, vertices));
 	while (!done)
 		garment_advance(job, 100000, &done);
@@ -50,7 +50,7 @@ static void mesh(int pieces, int vertices)
 static void lay(int v, float height_m, float slope)
 {
 	struct v2 p = garment.rest_m[v];
-	float along = 1.0f / sqrtf(1.0f + slope * slope) * (p.y - 0.12f);
+	float along = 1.0f / sqrtf(1.0f + slope * slope) * (p.y - 0.1f);
 	cloth.position_m[v] = (struct v3){along, height_m + slope * along, p.x - 0.1f};
 	cloth.placed[v] = 1;
 }
