@@ -128,6 +128,7 @@ static void put_measure(json_t *report, const struct measure *measure)
 	put_real(report, "strain_max", (double)measure->strain_max);
 	put_real(report, "compression_p95", (double)measure->compression_p95);
 	put_int(report, "inverted_triangles", measure->inverted_triangles);
+	put_int(report, "creased_triangles", measure->creased_triangles);
 	put_int(report, "self_intersections", measure->self_intersections);
 	put_real(report, "seam_gap_mm_max", (double)measure->seam_gap_mm_max);
 }

@@ -11,6 +11,7 @@ void cloth_init(struct cloth *cloth, struct arena *arena)
 	cloth->contact = ARENA_ARRAY(arena, struct contact, GARMENT_VERTICES_MAX);
 	cloth->placed = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
 	cloth->held = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
+	cloth->creased = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
 	cloth->goal_m = ARENA_ARRAY(arena, struct v3, GARMENT_VERTICES_MAX);
 	cloth->particle = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
 	cloth->triangle = ARENA_ARRAY(arena, struct triangle, GARMENT_TRIANGLES_MAX);
@@ -79,6 +80,7 @@ void cloth_reset(struct cloth *cloth, const struct garment *garment, const struc
 	cloth->settings = cloth_settings_worn();
 	memset(cloth->placed, 0, GARMENT_VERTICES_MAX);
 	memset(cloth->held, 0, GARMENT_VERTICES_MAX);
+	memset(cloth->creased, 0, GARMENT_VERTICES_MAX);
 	memset(cloth->piece_parts, 0, sizeof cloth->piece_parts);
 	memset(cloth->piece_drawn, 0, sizeof cloth->piece_drawn);
 	memset(cloth->scratch->stiff, 0, GARMENT_VERTICES_MAX);

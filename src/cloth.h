@@ -56,6 +56,7 @@ struct cloth {
 	uint8_t *placed; /* the wrap has laid this vertex */
 	uint8_t *held;   /* goal_m pulls: 1 softly (marks, the grabbed point), 2 firmly (pins) */
 	struct v3 *goal_m;
+	uint8_t *creased; /* per vertex: lies in a fold that is wanted */
 	bool welded;
 	bool worn;                        /* a wrap has finished: there is a garment to drag */
 	unsigned piece_parts[PIECES_MAX]; /* bit set of enum body_part; 0: all */
@@ -107,6 +108,9 @@ void cloth_restore(struct cloth *cloth, const struct garment *garment, const str
 /* Mends folded patches: triangles that face the body turn back with their ring (S18's last clause).
  * Returns how many were found. */
 int cloth_unfold(struct cloth *cloth);
+
+/* Does the triangle's outside look at the body that it lies near? */
+bool cloth_folded(const struct cloth *cloth, int triangle);
 
 /* Pushes edges out that pass through the body, by exact queries: slice `slice` of `slices` of all
  * triangles. Returns how many were found. */

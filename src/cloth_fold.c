@@ -16,9 +16,11 @@ static struct v3 face_normal(const struct cloth *cloth, int t)
 
 /* Does the triangle's outside look at the body that it lies near, and its inside at none? (Cloth of
  * the trunk that hangs under an arm looks at the arm, but its inside still faces the trunk.) */
-static bool faces_body(const struct cloth *cloth, int t)
+bool cloth_folded(const struct cloth *cloth, int t)
 {
 	const int *v = cloth->triangle[t].v;
+	if (!triangle_placed(cloth, t) || cloth->contact[v[0]].triangle < 0)
+		return false;
 	struct v3 centre = {0.0f, 0.0f, 0.0f}, normal = face_normal(cloth, t);
 	for (int k = 0; k < 3; k++)
 		centre = v3_mad(centre, cloth->position_m[v[k]], 1.0f / 3.0f);
@@ -36,7 +38,7 @@ static void flag_ring(struct cloth *cloth)
 	struct cloth_scratch *s = cloth->scratch;
 	for (int v = 0; v < cloth->garment->vertex_count; v++)
 		for (int i = s->ring_first[v]; s->flipped[v] == 1 && i < s->ring_first[v + 1]; i++)
-			if (!s->flipped[s->ring[i]])
+			if (!s->flipped[s->ring[i]] && !cloth->creased[s->ring[i]])
 				s->flipped[s->ring[i]] = 2;
 }
 
@@ -75,12 +77,13 @@ int cloth_unfold(struct cloth *cloth)
 	int found = 0;
 	memset(s->flipped, 0, (size_t)cloth->garment->vertex_count);
 	for (int t = 0; t < cloth->garment->triangle_count; t++) {
-		if (!triangle_placed(cloth, t) ||
-		    cloth->contact[cloth->triangle[t].v[0]].triangle < 0 || !faces_body(cloth, t))
+		const int *v = cloth->triangle[t].v;
+		bool wanted = cloth->creased[v[0]] && cloth->creased[v[1]] && cloth->creased[v[2]];
+		if (wanted || !cloth_folded(cloth, t))
 			continue;
 		found++;
 		for (int k = 0; k < 3; k++)
-			s->flipped[cloth->triangle[t].v[k]] = 1;
+			s->flipped[v[k]] = 1;
 	}
 	if (found == 0)
 		return 0;

@@ -70,6 +70,7 @@ struct giver {
  * turned to follow the body's surface, and weakened towards the pins. */
 struct drag {
 	bool active;
+	bool pinned; /* there are pins: what it folds is wanted */
 	struct cloth *cloth;
 	int triangle; /* grabbed: garment.triangle with barycentric weights */
 	float weight[3];
@@ -94,6 +95,10 @@ void drag_begin(struct drag *drag, struct cloth *cloth, const struct pin *pins, 
 enum { DRAG_STEP_MAX_MM = 10 };
 long drag_move(struct drag *drag, struct v3 target_m);
 void drag_end(struct drag *drag);
+
+/* Creased cloth rests where a frame found it, but for what pulls more than friction holds; start_m
+ * (per vertex): where that was. */
+void crease_rest(struct cloth *cloth, const struct v3 *start_m);
 
 /* Where the grabbed point is now. */
 struct v3 drag_point(const struct drag *drag);

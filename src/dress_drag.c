@@ -15,7 +15,7 @@ static const float grip_m = 0.04f;  /* what the fingers hold */
 static const float near_m = 0.03f;  /* cloth nearer to the body than this follows its surface */
 static const float loose_m = 0.06f; /* cloth farther from the body than this follows in space */
 static const float hand_region_m = 0.08f;
-static const float strain_free = 0.2f, strain_most = 0.5f; /* that a drag may add near the hand */
+static const float strain_half = 0.4f; /* added near the hand: it pulls half as fast */
 static const float yield_fall = 0.5f, yield_rise = 0.03f, yield_spread = 0.2f; /* a move */
 
 void drag_init(struct drag *drag, struct arena *arena)
@@ -119,6 +119,7 @@ void drag_begin(struct drag *drag, struct cloth *cloth, const struct pin *pins, 
 	drag_build_graph(drag, pins, pin_count);
 	take_grip(drag);
 	list_near(drag);
+	drag_open_creases(drag);
 	hold_grabbed(drag, true);
 }
 
@@ -126,6 +127,8 @@ void drag_end(struct drag *drag)
 {
 	MUST(drag->active);
 	hold_grabbed(drag, false);
+	if (drag->pinned)
+		drag_crease(drag);
 	drag->active = false;
 }
 
@@ -181,8 +184,8 @@ static struct v3 pull_m(const struct drag *drag, struct v3 target_m)
 	float away = (distance_m - near_m) / (loose_m - near_m);
 	float flat = 1.0f - float_clamp(away, 0.0f, 1.0f);
 	pull = v3_mad(pull, normal, -flat * v3_dot(pull, normal));
-	float tight = (strain_at_hand(drag) - strain_free) / (strain_most - strain_free);
-	float most = (float)DRAG_STEP_MAX_MM * 0.001f * (1.0f - float_clamp(tight, 0.0f, 1.0f));
+	float tight = strain_at_hand(drag) / strain_half;
+	float most = (float)DRAG_STEP_MAX_MM * 0.001f / (1.0f + tight * tight * tight * tight);
 	float length = v3_length(pull);
 	return length > most ? v3_scale(pull, most / length) : pull;
 }

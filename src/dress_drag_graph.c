@@ -58,6 +58,7 @@ void drag_build_graph(struct drag *drag, const struct pin *pins, int pin_count)
 	struct drag_scratch *s = drag->scratch;
 	front_build(&s->front, drag->cloth);
 	bool pinned = march_pins(drag, pins, pin_count);
+	drag->pinned = pinned;
 	if (pinned)
 		block_pins(drag);
 	front_begin(&s->front, drag->distance_m);

@@ -51,6 +51,11 @@ void front_begin(struct front *front, float *distance_m);
 void front_add_source(struct front *front, int triangle, const float weight[3]);
 int front_march(struct front *front, int *order, const uint8_t *blocked);
 
+/* Folds in the reach of the drag become creases; creases within a hand's span of the grabbed point
+ * are opened (dress_crease.c). */
+void drag_crease(struct drag *drag);
+void drag_open_creases(struct drag *drag);
+
 /* Who hands the motion on to whom, and what the pins leave of it, seen from the grabbed point:
  * fills order, distance_m, giver and share of the drag (dress_drag_graph.c). */
 void drag_build_graph(struct drag *drag, const struct pin *pins, int pin_count);

@@ -173,7 +173,11 @@ static void measure_faces(struct measure *measure, const struct cloth *cloth)
 		measure->triangles++;
 		count_depth(measure, look(cloth, centre, v[0], &hit), &measure->centres_inside);
 		struct v3 normal = v3_normalize(v3_cross(v3_sub(b, a), v3_sub(c, a)));
-		measure->inverted_triangles += is_inverted(cloth, centre, normal, &hit);
+		if (!is_inverted(cloth, centre, normal, &hit))
+			continue;
+		measure->inverted_triangles++;
+		measure->creased_triangles += cloth->creased[v[0]] && cloth->creased[v[1]] &&
+					      cloth->creased[v[2]];
 	}
 }
 

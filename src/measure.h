@@ -48,6 +48,7 @@ struct measure {
 	float compression_p95;        /* 1 minus the smaller one */
 	int inverted_triangles; /* their outside looks at the body within 60 mm (by more than 120
 				   degrees off its normal), and no body lies behind within 250 mm */
+	int creased_triangles;  /* those of them that are folded on purpose (dress_crease.c) */
 	int self_intersections; /* pairs of triangles without a common corner that cross */
 	float seam_gap_mm_max;
 	int loop_count;

@@ -148,17 +148,18 @@ static long advance_cloth(struct session *session)
 {
 	struct cloth *cloth = &session->cloth;
 	long units = 0;
-	memcpy(session->frame_start_m, cloth->position_m,
-	       (size_t)session->garment.vertex_count * sizeof(struct v3));
 	cloth->settings = settings_now(session);
 	session->pause_frames++;
 	if (session->drag.active)
 		units += drag_move(&session->drag, session->drag_target_m);
+	memcpy(session->frame_start_m, cloth->position_m,
+	       (size_t)session->garment.vertex_count * sizeof(struct v3));
 	for (int sweep = 0; sweep < SWEEPS_A_FRAME_MAX && units < session->budget_units; sweep++) {
 		if (session->relaxing && cloth->sweep % SWEEPS_BETWEEN_UNFOLDS == 0)
 			cloth_unfold(cloth);
 		units += cloth_sweep(cloth);
 	}
+	crease_rest(cloth, session->frame_start_m);
 	cloth_push_out(cloth, session->frame % PUSH_SLICES, PUSH_SLICES);
 	cloth_finish(cloth);
 	note_rest(session);

@@ -19,7 +19,7 @@ struct undo {
 	int free_page, free_count;
 	struct page *page;
 	struct v3 *position_m; /* a state on its way back to the cloth */
-	uint8_t *placed;
+	uint8_t *placed, *creased;
 };
 
 struct undo *undo_init(struct arena *arena)
@@ -27,6 +27,7 @@ struct undo *undo_init(struct arena *arena)
 	struct undo *undo = ARENA_ARRAY(arena, struct undo, 1);
 	undo->page = ARENA_ARRAY(arena, struct page, PAGES);
 	undo->position_m = ARENA_ARRAY(arena, struct v3, GARMENT_VERTICES_MAX);
+	undo->creased = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
 	undo->placed = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
 	for (int i = 0; i < PAGES; i++)
 		undo->page[i].next = i + 1 < PAGES ? i + 1 : NO_PAGE;
@@ -88,7 +89,7 @@ static void pass(struct stream *stream, void *data, size_t size)
 
 /* What a state is: document, garment, the cloth's places, and whether a wrap was under way. */
 static void pass_state(struct stream *stream, struct session *session, struct v3 *position_m,
-		       uint8_t *placed, bool *wrapping)
+		       uint8_t *placed, uint8_t *creased, bool *wrapping)
 {
 	struct garment *garment = &session->garment;
 	PASS(stream, &session->document, 1);
@@ -109,6 +110,7 @@ static void pass_state(struct stream *stream, struct session *session, struct v3
 	PASS(stream, garment->pair, garment->pair_count);
 	PASS(stream, position_m, garment->vertex_count);
 	PASS(stream, placed, garment->vertex_count);
+	PASS(stream, creased, garment->vertex_count);
 }
 
 /* ---- the stock of pages ---- */
@@ -150,12 +152,12 @@ static void save(struct session *session, int next)
 	struct cloth *cloth = &session->cloth;
 	bool wrapping = session->job != JOB_NONE;
 	struct stream stream = {.undo = undo};
-	pass_state(&stream, session, cloth->position_m, cloth->placed, &wrapping);
+	pass_state(&stream, session, cloth->position_m, cloth->placed, cloth->creased, &wrapping);
 	drop(undo, undo->now);
 	make_room(undo, stream.size, int_min(undo->now, next), int_max(undo->now, next));
 	stream.direction = WRITING;
 	stream.link = state_pages(undo, undo->now);
-	pass_state(&stream, session, cloth->position_m, cloth->placed, &wrapping);
+	pass_state(&stream, session, cloth->position_m, cloth->placed, cloth->creased, &wrapping);
 }
 
 static void restore(struct session *session)
@@ -165,9 +167,10 @@ static void restore(struct session *session)
 	bool wrapping = false;
 	struct stream stream = {.undo = undo, .direction = READING};
 	stream.link = state_pages(undo, undo->now);
-	pass_state(&stream, session, undo->position_m, undo->placed, &wrapping);
+	pass_state(&stream, session, undo->position_m, undo->placed, undo->creased, &wrapping);
 	cloth_restore(cloth, &session->garment, &session->body, undo->position_m, undo->placed,
 		      cloth->welded, cloth->worn);
+	memcpy(cloth->creased, undo->creased, (size_t)session->garment.vertex_count);
 	session_resume(session, wrapping);
 }
 

@@ -1,0 +1,66 @@
+/* Folds that were made on purpose: a sleeve rolled up against pins (S12). Cloth that was dragged
+ * with pins in place and lies folded when the hand lets go is creased: nobody turns it back, and it
+ * rests on what lies under it, body or cloth. The hand that takes hold of it again opens it. */
+#include "dress_drag_private.h"
+
+enum { CREASE_RINGS = 2 }; /* the bends on both sides of what faces the body */
+
+static const float hand_span_m = 0.15f;
+static const float rest_step_m = 0.0005f; /* a frame: less than this is friction's */
+static const float rest_share = 0.5f;     /* and of what is more, this */
+static const float rest_near_m = 0.04f;   /* cloth farther from the body rests on nothing */
+
+/* Marks particles in the triangles round every particle of the mark before. */
+static void grow(struct drag *drag, uint8_t mark)
+{
+	const struct front *front = &drag->scratch->front;
+	struct cloth *cloth = drag->cloth;
+	for (int j = 0; j < drag->order_count; j++) {
+		int a = drag->order[j];
+		for (int i = front->first[a]; cloth->creased[a] == mark && i < front->first[a + 1];
+		     i++)
+			for (int k = 0; k < 3; k++) {
+				int b = cloth->triangle[front->corner[i] >> 2].v[k];
+				if (!cloth->creased[b])
+					cloth->creased[b] = (uint8_t)(mark + 1);
+			}
+	}
+}
+
+void drag_crease(struct drag *drag)
+{
+	struct cloth *cloth = drag->cloth;
+	for (int t = 0; t < cloth->garment->triangle_count; t++) {
+		const int *v = cloth->triangle[t].v;
+		if (drag->distance_m[v[0]] < 0.0f || !cloth_folded(cloth, t))
+			continue;
+		for (int k = 0; k < 3; k++)
+			cloth->creased[v[k]] = 1;
+	}
+	for (uint8_t ring = 1; ring <= CREASE_RINGS; ring++)
+		grow(drag, ring);
+	for (int j = 0; j < drag->order_count; j++)
+		cloth->creased[drag->order[j]] = cloth->creased[drag->order[j]] != 0;
+}
+
+void drag_open_creases(struct drag *drag)
+{
+	for (int j = 0; j < drag->order_count; j++)
+		if (drag->distance_m[drag->order[j]] < hand_span_m)
+			drag->cloth->creased[drag->order[j]] = 0;
+}
+
+void crease_rest(struct cloth *cloth, const struct v3 *start_m)
+{
+	for (int v = 0; v < cloth->garment->vertex_count; v++) {
+		if (!cloth->creased[v] || cloth->held[v] || cloth->particle[v] != v ||
+		    cloth->contact[v].distance_m > rest_near_m)
+			continue;
+		struct v3 step = v3_sub(cloth->position_m[v], start_m[v]);
+		float length = v3_length(step), kept = 0.0f;
+		if (length > rest_step_m)
+			kept = rest_share * (length - rest_step_m) / length;
+		cloth->position_m[v] = v3_mad(start_m[v], step, kept);
+		cloth->previous_m[v] = cloth->position_m[v];
+	}
+}
