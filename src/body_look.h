@@ -28,8 +28,8 @@ static inline bool near_allowed(const struct body *body, int t, unsigned parts)
 }
 
 /* Ericson, Real-Time Collision Detection, 5.1.5; with the feature that it lies on. */
-static inline struct v3 nearest_on_triangle(struct v3 p, struct v3 a, struct v3 b, struct v3 c,
-					    int *feature)
+static inline __attribute__((always_inline)) struct v3
+nearest_on_triangle(struct v3 p, struct v3 a, struct v3 b, struct v3 c, int *feature)
 {
 	struct v3 ab = v3_sub(b, a), ac = v3_sub(c, a), ap = v3_sub(p, a);
 	float d1 = v3_dot(ab, ap), d2 = v3_dot(ac, ap);
@@ -72,8 +72,12 @@ static inline void near_look(const struct body *body, struct v3 p, int t, struct
 					  body->position_m[v[2]], &feature);
 	struct v3 d = v3_sub(p, q);
 	float d2 = v3_dot(d, d);
-	if (d2 < best->d2)
-		*best = (struct nearest){t, feature, q, d2};
+	if (!(d2 < best->d2))
+		return;
+	best->triangle = t;
+	best->feature = feature;
+	best->point_m = q;
+	best->d2 = d2;
 }
 
 /* One step downhill: over the edge that holds the nearest point, or round its vertex. Inside a face
@@ -100,6 +104,26 @@ static inline int near_walk(const struct body *body, struct v3 point_m, unsigned
 			break;
 	}
 	return looked;
+}
+
+/* The normal that decides the side: of the face, of both faces of an edge, or angle-weighted. */
+static inline struct v3 side_normal(const struct body *body, const struct nearest *n)
+{
+	if (n->feature >= ON_VERTEX)
+		return body->normal[body->triangle[n->triangle].v[n->feature - ON_VERTEX]];
+	struct v3 normal = body->face_normal[n->triangle];
+	if (n->feature >= ON_EDGE) {
+		int across = body->neighbour[3 * n->triangle + n->feature - ON_EDGE];
+		normal = v3_add(normal, body->face_normal[across]);
+	}
+	return normal;
+}
+
+/* The distance with its sign. */
+static inline float near_signed_m(const struct body *body, struct v3 p, const struct nearest *n)
+{
+	float distance = sqrtf(n->d2);
+	return v3_dot(v3_sub(p, n->point_m), side_normal(body, n)) < 0.0f ? -distance : distance;
 }
 
 #endif

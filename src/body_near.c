@@ -2,19 +2,6 @@
 #include "body_private.h"
 #include "body_tree.h"
 
-/* The normal that decides the side: of the face, of both faces of an edge, or angle-weighted. */
-static struct v3 side_normal(const struct body *body, const struct nearest *n)
-{
-	if (n->feature >= ON_VERTEX)
-		return body->normal[body->triangle[n->triangle].v[n->feature - ON_VERTEX]];
-	struct v3 normal = body->face_normal[n->triangle];
-	if (n->feature >= ON_EDGE) {
-		int across = body->neighbour[3 * n->triangle + n->feature - ON_EDGE];
-		normal = v3_add(normal, body->face_normal[across]);
-	}
-	return normal;
-}
-
 struct v3 body_smooth_normal(const struct body *body, int t, struct v3 q)
 {
 	const int *v = body->triangle[t].v;
@@ -29,12 +16,6 @@ struct v3 body_smooth_normal(const struct body *body, int t, struct v3 q)
 	struct v3 sum = v3_scale(body->normal[v[0]], wa);
 	sum = v3_mad(v3_mad(sum, body->normal[v[1]], wb), body->normal[v[2]], 1.0f - wa - wb);
 	return v3_normalize(sum);
-}
-
-float near_signed_m(const struct body *body, struct v3 p, const struct nearest *n)
-{
-	float distance = sqrtf(n->d2);
-	return v3_dot(v3_sub(p, n->point_m), side_normal(body, n)) < 0.0f ? -distance : distance;
 }
 
 static void finish(const struct body *body, struct v3 p, const struct nearest *n,

@@ -19,8 +19,7 @@ struct body_scratch {
 /* The nearest triangle of all, through the tree, when one is nearer than the best. */
 void near_search(const struct body *body, struct v3 p, unsigned parts, struct nearest *best);
 
-/* The distance with its sign; does the point lie where the parts asked for end? */
-float near_signed_m(const struct body *body, struct v3 p, const struct nearest *nearest);
+/* Does the point lie where the parts asked for end? */
 bool near_on_rim(const struct body *body, const struct nearest *nearest, unsigned parts);
 
 /* How far from each triangle a walk can be trusted (body_track.c). */

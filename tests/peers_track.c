@@ -23,8 +23,8 @@ static struct v3 random_way(struct scatter *scatter)
 	return v3_normalize(way);
 }
 
-/* A turn by a degree about the vertical, a step of 3 mm anywhere, and back to within 2 cm of the
- * body, as cloth would be. */
+/* A turn by a degree about the vertical, a step of 3 mm anywhere, and back to the outermost 2 cm
+ * above the body, where cloth is. */
 static struct v3 move(struct tracks *tracks, struct v3 p, struct scatter *scatter, float *exact_m)
 {
 	float c = angle_cos(turn_rad), s = angle_sin(turn_rad);
@@ -32,8 +32,11 @@ static struct v3 move(struct tracks *tracks, struct v3 p, struct scatter *scatte
 	struct body_hit hit;
 	q = v3_mad(q, random_way(scatter), step_m);
 	body_nearest(&tracks->body, q, 0, &hit);
-	if (float_abs(hit.distance_m) > shell_m) {
-		q = v3_lerp(hit.point_m, q, shell_m / float_abs(hit.distance_m));
+	if (hit.distance_m < 0.0f || hit.distance_m > shell_m) {
+		float height = float_clamp(-hit.distance_m, 0.0f, shell_m);
+		q = v3_lerp(hit.point_m, q,
+			    (hit.distance_m > 0.0f ? shell_m : -height) /
+				    float_abs(hit.distance_m));
 		body_nearest(&tracks->body, q, 0, &hit);
 	}
 	*exact_m = float_abs(hit.distance_m);
