@@ -29,7 +29,7 @@ INC_firmware-host := -iquote src -iquote drivers -iquote ui -iquote firmware-hos
 INC_tests         := $(INC_firmware-host) -iquote tests
 
 # Of src, drivers may include these alone: a vocabulary, not the model.
-DRIVER_VOCABULARY := arena base edit input journal limits pattern triangle vec
+DRIVER_VOCABULARY := arena base bone edit input journal limits pattern triangle vec
 
 # The core may ask the C library for these and for nothing else: no heap, no clock, no files, no
 # libm function whose last bit differs between systems.

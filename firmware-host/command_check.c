@@ -3,6 +3,7 @@
 
 #include "board.h"
 #include "character.h"
+#include "format_bones.h"
 #include "format_garment.h"
 #include "journal_file.h"
 #include "options.h"
@@ -95,7 +96,8 @@ static bool try_edit(struct inspector *inspector, const struct journal_file *fil
 {
 	const struct edit *edit = inspector->edit;
 	bool on_paper = edit->kind >= EDIT_PIECE && edit->kind <= EDIT_MARK_CLOTH;
-	if (edit->kind == EDIT_BODY || edit->kind == EDIT_BUDGET || edit->kind == EDIT_MARK_BODY)
+	if (edit->kind == EDIT_BODY || edit->kind == EDIT_BUDGET || edit->kind == EDIT_MARK_BODY ||
+	    edit->kind == EDIT_MARK_AT)
 		return true;
 	*trying = *trying && on_paper;
 	if (!*trying || session_apply(inspector->session, edit) || !file->by_hand)
@@ -147,6 +149,22 @@ static bool check_pattern(struct inspector *inspector, const char *path)
 	for (int s = 0; s < SEAMS_MAX; s++)
 		seams += pattern.seam[s].used;
 	say_of(path, "a pattern, sound: %d pieces, %d seams", pieces, seams);
+	return true;
+}
+
+static bool check_bones(struct inspector *inspector, const char *path)
+{
+	struct bone_list bones;
+	size_t size;
+	char wrong[200];
+	char *text = store_read(path, &size, inspector->fault);
+	if (!text)
+		return fail(inspector);
+	bool read = format_bones_read(&bones, text, size, wrong);
+	free(text);
+	if (!read)
+		return fail_of(path, wrong);
+	say_of(path, "bones of a body, sound: %d", bones.count);
 	return true;
 }
 
@@ -231,6 +249,8 @@ static bool check_file(struct inspector *inspector, const char *path)
 	if (line_begins(head, "# kitsuke-tape") || line_begins(head, "D:") ||
 	    line_begins(head, "R:") || line_begins(head, "E:") || ends_with(path, ".hid"))
 		return check_tape(inspector, path);
+	if (line_begins(head, "kitsuke-bones") || ends_with(path, ".bones"))
+		return check_bones(inspector, path);
 	if (ends_with(path, ".json"))
 		return check_pattern(inspector, path);
 	if (ends_with(path, ".board"))
@@ -238,7 +258,8 @@ static bool check_file(struct inspector *inspector, const char *path)
 	if (line_begins(head, "v ") || ends_with(path, ".obj"))
 		return check_body(inspector, path);
 	return fail_of(path, "what kind of file is this? Known are journals (.kitsuke), tapes "
-			     "(.hid), bodies (.obj), patterns (.json) and boards (.board)");
+			     "(.hid), bodies (.obj), bones (.bones), patterns (.json) and boards "
+			     "(.board)");
 }
 
 int command_check(int argc, char **argv)

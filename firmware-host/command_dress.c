@@ -17,10 +17,11 @@ enum { PICTURE_WIDTH = 1280, PICTURE_HEIGHT = 720, PROGRESS_FRAMES = 30 };
 
 static const char usage[] =
 	"usage: kitsuke dress JOURNAL [--obj FILE] [--glb FILE] [--picture FILE] [--report FILE]\n"
-	"                     [--body FILE|mannequin] [--body-obj FILE] [--progress]\n";
+	"                     [--body FILE|mannequin] [--body-obj FILE] [--bones FILE]\n"
+	"                     [--bones-out FILE] [--progress]\n";
 
 struct dresser {
-	const char *journal, *obj, *glb, *picture, *report, *body, *body_obj;
+	const char *journal, *obj, *glb, *picture, *report, *body, *body_obj, *bones, *bones_out;
 	bool progress;
 	void *memory;
 	struct session *session;
@@ -72,6 +73,9 @@ static bool put_body(struct dresser *dresser, const char *name)
 		 length ? dresser->journal : ".");
 	if (!character_load(&dresser->session->body, dresser->body ? dresser->body : name,
 			    dresser->body ? NULL : folder, note, dresser->fault))
+		return false;
+	if (dresser->bones &&
+	    !character_read_bones(&dresser->session->body, dresser->bones, dresser->fault))
 		return false;
 	if (note[0])
 		fprintf(stderr, "kitsuke dress: note: %s\n", note);
@@ -211,6 +215,9 @@ static int write_results(struct dresser *dresser)
 	if (dresser->body_obj &&
 	    !character_write_obj(&session->body, dresser->body_obj, dresser->fault))
 		return complain(dresser, STATUS_MACHINE);
+	if (dresser->bones_out &&
+	    !character_write_bones(&session->body, dresser->bones_out, dresser->fault))
+		return complain(dresser, STATUS_MACHINE);
 	if (dresser->report &&
 	    !report_write(session, &dresser->clock, &measure, dresser->report, dresser->fault))
 		return complain(dresser, STATUS_MACHINE);
@@ -245,6 +252,8 @@ int command_dress(int argc, char **argv)
 		{"--report", NULL, &dresser.report, NULL},
 		{"--body", NULL, &dresser.body, NULL},
 		{"--body-obj", NULL, &dresser.body_obj, NULL},
+		{"--bones", NULL, &dresser.bones, NULL},
+		{"--bones-out", NULL, &dresser.bones_out, NULL},
 		{"--progress", &dresser.progress, NULL, NULL},
 		{NULL, NULL, NULL, NULL},
 	};

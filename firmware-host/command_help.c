@@ -17,7 +17,8 @@ static void help_commands(void)
 	     "                 [--body FILE] [--samples] [--jitter-mm N --seed N]\n"
 	     "                                plays recorded raw input headless\n"
 	     "  kitsuke dress JOURNAL [--obj FILE] [--glb FILE] [--picture FILE] [--report FILE]\n"
-	     "                 [--body FILE] [--body-obj FILE] [--progress]\n"
+	     "                 [--body FILE] [--body-obj FILE] [--bones FILE] [--bones-out FILE] "
+	     "[--progress]\n"
 	     "                                runs a document without input devices\n"
 	     "  kitsuke import PATTERN [--marks FILE] --journal FILE\n"
 	     "                                reads a pattern file into a document\n"
@@ -115,6 +116,9 @@ static void help_landmarks(void)
 	     "  mark-at 2 front-centre 0 1 0.02 0.09\n");
 	for (int i = 0; i < LANDMARK_COUNT; i++)
 		printf("  %-24s %s\n", landmark_name[i], landmark_stops[i]);
+	puts("\nBones are found by themselves. Where they are wrong, write them out with `kitsuke\n"
+	     "dress JOURNAL --bones-out FILE`, mend the text, and give it back with --bones, or\n"
+	     "name it BODY.bones beside BODY.obj: every command then takes it.");
 }
 
 /* ---- marks ---- */

@@ -5,28 +5,12 @@
 
 #include "arena.h"
 #include "body_landmark.h"
+#include "bone.h"
 #include "garment.h"
 #include "vec.h"
 
 /* A point farther from the body than this is only known to be so. */
 #define BODY_NEAR_M 0.06f
-
-enum body_part {
-	PART_TRUNK,
-	PART_HEAD, /* with the neck */
-	PART_ARM_LEFT,
-	PART_ARM_RIGHT,
-	PART_LEG_LEFT,
-	PART_LEG_RIGHT,
-	PART_COUNT,
-};
-
-/* A bone is a segment well inside its part. */
-struct bone {
-	enum body_part part;
-	struct v3 a_m, b_m; /* from the trunk outward */
-	float radius_m;     /* mean distance to the surface */
-};
 
 struct bvh_node {
 	struct v3 low_m, high_m;
@@ -79,10 +63,15 @@ const char *body_build(struct body *body, const struct v3 *position_m, int verte
 /* Builds the mannequin of this house into the body (generator: body_mannequin.c). */
 const char *body_build_mannequin(struct body *body);
 
-/* Head, arms, legs, bones and landmarks for any standing figure (S19); on four feet the forelegs are
- * arms. Arms or legs that lie in one with the trunk, as under a robe, are part of it. Returns false
- * when neither were found, or no head: then everything is trunk and there are no bones. */
+/* Head, arms, legs, bones and landmarks for any standing figure (S19); on four feet the forelegs
+ * are arms. Arms or legs that lie in one with the trunk, as under a robe, are part of it. Returns
+ * false when neither were found, or no head: then everything is trunk and there are no bones. */
 bool body_find_parts(struct body *body);
+
+/* Bones from elsewhere take the place of those found: every triangle goes to the bone that is
+ * nearest inside the body, and landmarks follow. Radii of 0 are measured. Returns NULL, or what is
+ * wrong with bone *at (nothing has changed then). */
+const char *body_give_bones(struct body *body, const struct bone_list *bones, int *at);
 
 /* Exact nearest surface point. `parts` is a bit set of enum body_part to consider; 0 means all. */
 void body_nearest(const struct body *body, struct v3 point_m, unsigned parts, struct body_hit *hit);

@@ -12,7 +12,7 @@ static const float nose_low = 0.15f, nose_high = 0.55f;
 static const float skull_reach = 1.2f;
 
 /* A crown may be a crest or a helmet's edge. */
-static const float skull_lean_max = 0.3f; /* tangent */
+static const float skull_lean_max = 0.2f; /* tangent */
 
 /* The collar lies at this share of the neck's length above its base. */
 static const float collar_share = 0.15f;

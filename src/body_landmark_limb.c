@@ -7,6 +7,9 @@ enum { GIRTH_STEPS = 24, LINE_STEPS = 64 };
  * limb only tapers, like a toy's, they are at the share after it. */
 static const float end_low = 0.55f, end_high = 0.93f, end_else = 0.82f;
 
+/* An elbow or a knee lies in this part of the way to wrist or ankle. */
+static const float joint_low = 0.40f, joint_high = 0.62f;
+
 /* Between shin and foot. */
 static const float foot_cosine = 0.85f;
 
@@ -41,7 +44,7 @@ static void chain_of_part(const struct body *body, enum body_part part, struct c
 static float joint_of(const struct chain *chain, float end_m)
 {
 	float first = chain->count > 2 ? chain->along_m[1] : 0.0f;
-	bool sane = first > 0.35f * end_m && first < 0.68f * end_m;
+	bool sane = first > joint_low * end_m && first < joint_high * end_m;
 	return sane ? first : 0.5f * end_m;
 }
 
@@ -157,12 +160,24 @@ static void find_leg(struct landmark_scratch *s, int side)
 	leg->joint_m = joint_of(&leg->chain, leg->end_m);
 }
 
+/* Left and right bend at the same share of their way, whatever the two paths say. */
+static void even_joints(struct limb_line pair[2])
+{
+	if (!pair[0].found || !pair[1].found)
+		return;
+	float share = 0.5f * (pair[0].joint_m / pair[0].end_m + pair[1].joint_m / pair[1].end_m);
+	pair[0].joint_m = share * pair[0].end_m;
+	pair[1].joint_m = share * pair[1].end_m;
+}
+
 void landmark_limbs(struct landmark_scratch *s)
 {
 	for (int side = 0; side < 2; side++) {
 		find_arm(s, side);
 		find_leg(s, side);
 	}
+	even_joints(s->arm);
+	even_joints(s->leg);
 }
 
 /* ---- lines ---- */
@@ -209,24 +224,28 @@ static struct v3 start_at(struct landmark_scratch *s, const struct limb_line *li
 	return skin_outward(s->body, at, v3_scale(s->frame.front, sign), &hit) ? hit.point_m : at;
 }
 
+/* The table holds all landmarks of the left, then those of the right. */
+static enum landmark on_side(enum landmark left, int side)
+{
+	return (enum landmark)((int)left + side * (LANDMARK_SIDE_RIGHT - LANDMARK_SIDE_LEFT));
+}
+
 static void keep_arm(struct landmark_scratch *s, int side)
 {
 	const struct limb_line *arm = &s->arm[side];
-	int right = side * (LANDMARK_SIDE_RIGHT - LANDMARK_SIDE_LEFT);
-	keep_line(s, arm, true, arm->outer_m, 0.0f, 1.0f, LANDMARK_ARM_TOP_LEFT + right);
-	keep_line(s, arm, true, arm->inner_m, 0.0f, -1.0f, LANDMARK_ARM_UNDER_LEFT + right);
+	keep_line(s, arm, true, arm->outer_m, 0.0f, 1.0f, on_side(LANDMARK_ARM_TOP_LEFT, side));
+	keep_line(s, arm, true, arm->inner_m, 0.0f, -1.0f, on_side(LANDMARK_ARM_UNDER_LEFT, side));
 	keep_line(s, arm, true, start_at(s, arm, 1.0f), 1.0f, 0.0f,
-		  LANDMARK_ARM_FRONT_LEFT + right);
+		  on_side(LANDMARK_ARM_FRONT_LEFT, side));
 	keep_line(s, arm, true, start_at(s, arm, -1.0f), -1.0f, 0.0f,
-		  LANDMARK_ARM_BACK_LEFT + right);
-	keep_round(s, arm, true, 0.5f * arm->joint_m, LANDMARK_ROUND_UPPER_ARM_LEFT + right);
-	keep_round(s, arm, true, arm->end_m, LANDMARK_ROUND_WRIST_LEFT + right);
+		  on_side(LANDMARK_ARM_BACK_LEFT, side));
+	keep_round(s, arm, true, 0.5f * arm->joint_m, on_side(LANDMARK_ROUND_UPPER_ARM_LEFT, side));
+	keep_round(s, arm, true, arm->end_m, on_side(LANDMARK_ROUND_WRIST_LEFT, side));
 }
 
 static void keep_leg(struct landmark_scratch *s, int side)
 {
 	struct limb_line *leg = &s->leg[side];
-	int right = side * (LANDMARK_SIDE_RIGHT - LANDMARK_SIDE_LEFT);
 	struct v3 axis = leg->chain.point_m[0], outer;
 	float rise = (s->hip_level - v3_dot(s->frame.axis, axis));
 	struct body_hit hit;
@@ -234,9 +253,9 @@ static void keep_leg(struct landmark_scratch *s, int side)
 	struct v3 hip = v3_mad(leg->chain.point_m[0], s->frame.axis, rise);
 	struct chain old = leg->chain;
 	float before = v3_distance(hip, old.point_m[0]);
-	keep_line(s, leg, false, leg->inner_m, 0.0f, -1.0f, LANDMARK_LEG_INNER_LEFT + right);
-	keep_round(s, leg, false, 0.12f * leg->joint_m, LANDMARK_ROUND_THIGH_LEFT + right);
-	keep_round(s, leg, false, leg->end_m, LANDMARK_ROUND_ANKLE_LEFT + right);
+	keep_line(s, leg, false, leg->inner_m, 0.0f, -1.0f, on_side(LANDMARK_LEG_INNER_LEFT, side));
+	keep_round(s, leg, false, 0.12f * leg->joint_m, on_side(LANDMARK_ROUND_THIGH_LEFT, side));
+	keep_round(s, leg, false, leg->end_m, on_side(LANDMARK_ROUND_ANKLE_LEFT, side));
 	leg->chain.count = 0;
 	chain_add_point(&leg->chain, hip);
 	for (int i = 0; i < old.count; i++)
@@ -246,11 +265,11 @@ static void keep_leg(struct landmark_scratch *s, int side)
 	outer = skin_outward(s->body, trunk_middle(s, s->hip_level), leg->outward, &hit)
 			? hit.point_m
 			: hip;
-	keep_line(s, leg, false, outer, 0.0f, 1.0f, LANDMARK_LEG_OUTER_LEFT + right);
+	keep_line(s, leg, false, outer, 0.0f, 1.0f, on_side(LANDMARK_LEG_OUTER_LEFT, side));
 	keep_line(s, leg, false, start_at(s, leg, 1.0f), 1.0f, 0.0f,
-		  LANDMARK_LEG_FRONT_LEFT + right);
+		  on_side(LANDMARK_LEG_FRONT_LEFT, side));
 	keep_line(s, leg, false, start_at(s, leg, -1.0f), -1.0f, 0.0f,
-		  LANDMARK_LEG_BACK_LEFT + right);
+		  on_side(LANDMARK_LEG_BACK_LEFT, side));
 }
 
 void landmark_limb_lines(struct landmark_scratch *s)
