@@ -25,7 +25,8 @@ enum wrap_stage {
 	WRAP_SEED,   /* triangles under the marks go to the body */
 	WRAP_GROW,   /* the rest follows ring by ring, continuing the cloth that lies there */
 	WRAP_CLOSE,  /* seams pull together, then the marks let go */
-	WRAP_WELD,   /* sewn vertices become one; folds are turned back */
+	WRAP_WELD,   /* sewn vertices become one */
+	WRAP_UNFOLD, /* folds are turned back */
 	WRAP_SETTLE, /* gravity; contact at midpoints and centres; last clean-up */
 	WRAP_DONE,
 };

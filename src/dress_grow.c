@@ -53,17 +53,19 @@ static struct v3 unfolded(const struct wrap *wrap, int t, int k, int across)
 {
 	const struct cloth *cloth = wrap->cloth;
 	const struct garment *garment = cloth->garment;
-	const int *v = garment->triangle[t].v, *w = garment->triangle[across].v;
+	const int *v = garment->triangle[t].v;
 	const struct v3 *x = cloth->position_m;
+	const int *q = cloth->triangle[across].v, *p = cloth->triangle[t].v;
 	int d = v[k], a = v[(k + 1) % 3], b = v[(k + 2) % 3];
 	struct v3 normal = v3_normalize(
-		v3_cross(v3_sub(x[w[1]], x[w[0]]), v3_sub(x[w[2]], x[w[0]])));
-	struct v3 edge = v3_normalize(v3_sub(x[b], x[a]));
+		v3_cross(v3_sub(x[q[1]], x[q[0]]), v3_sub(x[q[2]], x[q[0]])));
+	struct v3 a_m = x[p[(k + 1) % 3]], b_m = x[p[(k + 2) % 3]];
+	struct v3 edge = v3_normalize(v3_sub(b_m, a_m));
 	struct v2 flat = v2_sub(garment->rest_m[b], garment->rest_m[a]);
 	float length = v2_length(flat);
 	struct v2 u = v2_scale(flat, 1.0f / float_max(length, 1e-6f));
 	struct v2 to = v2_sub(garment->rest_m[d], garment->rest_m[a]);
-	struct v3 middle = v3_lerp(x[a], x[b], 0.5f);
+	struct v3 middle = v3_lerp(a_m, b_m, 0.5f);
 	struct v3 left = v3_normalize(v3_cross(normal, edge));
 	struct v3 flat_on = v3_mad(v3_mad(middle, edge, v2_dot(to, u) - 0.5f * length), left,
 				   v2_cross(u, to));
@@ -85,7 +87,8 @@ static void predict_corner(struct wrap *wrap, int t, int k)
 	const struct cloth *cloth = wrap->cloth;
 	const struct triangle *triangle = cloth->garment->triangle;
 	const int *weld = cloth->garment->weld;
-	int d = triangle[t].v[k], a = triangle[t].v[(k + 1) % 3], b = triangle[t].v[(k + 2) % 3];
+	int d = cloth->triangle[t].v[k];
+	int a = triangle[t].v[(k + 1) % 3], b = triangle[t].v[(k + 2) % 3];
 	int low = int_min(weld[a], weld[b]), high = int_max(weld[a], weld[b]);
 	for (int i = s->edge_first[low]; i < s->edge_first[low + 1]; i++) {
 		int across = s->edge_triangle[i] / 3, j = s->edge_triangle[i] % 3;
@@ -109,7 +112,7 @@ int wrap_grow_ring(struct wrap *wrap)
 	for (int t = 0; t < garment->triangle_count; t++) {
 		int missing = -1, count = 0;
 		for (int k = 0; k < 3; k++)
-			if (!cloth->placed[garment->triangle[t].v[k]]) {
+			if (!cloth->placed[cloth->triangle[t].v[k]]) {
 				missing = k;
 				count++;
 			}
@@ -119,7 +122,8 @@ int wrap_grow_ring(struct wrap *wrap)
 	for (int v = 0; v < garment->vertex_count; v++) {
 		if (s->count[v] == 0)
 			continue;
-		cloth->position_m[v] = v3_scale(s->sum_m[v], 1.0f / (float)s->count[v]);
+		struct v3 place = v3_scale(s->sum_m[v], 1.0f / (float)s->count[v]);
+		cloth->position_m[v] = wrap_above_wrist(wrap, garment->piece[v], place);
 		cloth->previous_m[v] = cloth->position_m[v];
 		cloth->placed[v] = 1;
 		cloth_look(cloth, v);

@@ -5,6 +5,9 @@
 
 enum { TRUNK_BIT = 1 << PART_TRUNK };
 
+enum { BINS = 64 };
+static const float bin_m = 0.02f;                /* a section of a limb */
+static const float wrist_widening = 1.5f;        /* hands and feet are so much wider than wrists */
 static const float curl_radius_least_m = 0.005f; /* nearer to a bone there is no way round it */
 
 /* Points of a piece's marks that lie on each part of the body. */
@@ -29,6 +32,17 @@ static int most_votes(const int votes[PART_COUNT])
 	for (int part = 1; part < PART_COUNT; part++)
 		most = votes[part] > votes[most] ? part : most;
 	return votes[most] > 0 ? most : PART_NONE;
+}
+
+/* A piece with a mark on a limb belongs there even if it covers more of the trunk. */
+static int marked_home(const int votes[PART_COUNT])
+{
+	int all = 0, limb = PART_ARM_LEFT;
+	for (int part = 0; part < PART_COUNT; part++) {
+		all += votes[part];
+		limb = part >= PART_ARM_LEFT && votes[part] > votes[limb] ? part : limb;
+	}
+	return 4 * votes[limb] > all ? limb : most_votes(votes);
 }
 
 /* One round of handing homes on over seams: a piece without one takes the home to which most of its
@@ -79,7 +93,7 @@ void wrap_find_homes(struct wrap *wrap)
 	int8_t *home = wrap->scratch->home;
 	vote(wrap, votes);
 	for (int p = 0; p < PIECES_MAX; p++)
-		home[p] = (int8_t)most_votes(votes[p]);
+		home[p] = (int8_t)marked_home(votes[p]);
 	while (hand_on(wrap) > 0)
 		;
 	allow_parts(wrap);
@@ -87,51 +101,116 @@ void wrap_find_homes(struct wrap *wrap)
 
 /* ---- bones as axes ---- */
 
-/* The nearest point on a part's bones, which go on straight beyond both ends of the chain; *along
- * is their direction there. False: the part has no bones. */
-static bool find_axis(const struct body *body, int part, struct v3 p_m, struct v3 *on_m,
-		      struct v3 *along)
+/* Where a point lies beside a limb's bones. */
+struct beside {
+	struct v3 axis_m; /* nearest point of the bones, which go on straight beyond both ends */
+	struct v3 along;  /* their direction there */
+	float reach_m;    /* from the first bone's start to axis_m, along the bones */
+};
+
+/* False: the part has no bones. */
+static bool look_beside(const struct body *body, int part, struct v3 p_m, struct beside *beside)
 {
-	float best = 1e9f;
+	float best = 1e9f, before_m = 0.0f;
 	int first = -1, last = -1;
 	for (int b = 0; b < body->bone_count; b++)
 		if ((int)body->bone[b].part == part && (first < 0 || last == b - 1)) {
 			first = first < 0 ? b : first;
 			last = b;
 		}
+	*beside = (struct beside){p_m, {0.0f, 1.0f, 0.0f}, 0.0f};
 	for (int b = first; first >= 0 && b <= last; b++) {
 		struct v3 a_m = body->bone[b].a_m, step = v3_sub(body->bone[b].b_m, a_m);
-		float length2 = float_max(v3_dot(step, step), 1e-8f);
-		float share = v3_dot(v3_sub(p_m, a_m), step) / length2;
-		if (share < 0.0f && b > first)
-			share = 0.0f;
-		if (share > 1.0f && b < last)
-			share = 1.0f;
-		struct v3 q = v3_mad(a_m, step, share);
+		float length = float_max(v3_length(step), 1e-4f);
+		struct v3 along = v3_scale(step, 1.0f / length);
+		float reach = v3_dot(v3_sub(p_m, a_m), along);
+		reach = b > first ? float_max(reach, 0.0f) : reach;
+		reach = b < last ? float_min(reach, length) : reach;
+		struct v3 q = v3_mad(a_m, along, reach);
 		float distance = v3_distance(q, p_m);
 		if (distance < best) {
 			best = distance;
-			*on_m = q;
-			*along = v3_normalize(step);
+			*beside = (struct beside){q, along, before_m + reach};
 		}
+		before_m += length;
 	}
 	return first >= 0;
 }
 
+static int bin_of(float reach_m)
+{
+	return (int)float_clamp(reach_m / bin_m, 0.0f, (float)(BINS - 1));
+}
+
+/* The last narrow place of a limb before it widens into hand or foot, as a reach; far away where a
+ * limb does not widen. `wide_m`: radius of its sections, 0 where none was seen. */
+static float find_wrist(const float wide_m[BINS])
+{
+	int narrow = -1;
+	float reach_m = 1e9f;
+	for (int i = 0; i < BINS; i++) {
+		if (wide_m[i] <= 0.0f)
+			continue;
+		if (narrow < 0 || wide_m[i] <= wide_m[narrow])
+			narrow = i;
+		else if (wide_m[i] > wrist_widening * wide_m[narrow])
+			reach_m = ((float)narrow + 1.0f) * bin_m;
+	}
+	return reach_m;
+}
+
+/* Cloth that is too long for its limb gathers above the hand or the foot: laid over fingers and
+ * toes it would be cut by them. */
+void wrap_measure_limbs(struct wrap *wrap)
+{
+	const struct body *body = wrap->cloth->body;
+	float wide_m[PART_COUNT][BINS];
+	memset(wide_m, 0, sizeof wide_m);
+	for (int v = 0; v < body->vertex_count; v++) {
+		struct beside beside;
+		int part = body->part[body->star[body->star_first[v]]];
+		if (part < PART_ARM_LEFT || !look_beside(body, part, body->position_m[v], &beside))
+			continue;
+		float *wide = &wide_m[part][bin_of(beside.reach_m)];
+		*wide = float_max(*wide, v3_distance(body->position_m[v], beside.axis_m));
+	}
+	for (int part = 0; part < PART_COUNT; part++)
+		wrap->scratch->wrist_m[part] = find_wrist(wide_m[part]);
+}
+
+float wrap_room(const struct wrap *wrap, int piece, struct v3 p_m)
+{
+	struct beside at;
+	int home = wrap->scratch->home[piece];
+	if (home < PART_ARM_LEFT || !look_beside(wrap->cloth->body, home, p_m, &at))
+		return 1e9f;
+	return wrap->scratch->wrist_m[home] - at.reach_m;
+}
+
+struct v3 wrap_above_wrist(const struct wrap *wrap, int piece, struct v3 p_m)
+{
+	struct beside at;
+	int home = wrap->scratch->home[piece];
+	if (home < PART_ARM_LEFT || !look_beside(wrap->cloth->body, home, p_m, &at))
+		return p_m;
+	return v3_mad(p_m, at.along, float_min(wrap->scratch->wrist_m[home] - at.reach_m, 0.0f));
+}
+
 struct v3 wrap_curl(const struct wrap *wrap, int piece, struct v3 from_m, struct v3 to_m)
 {
-	struct v3 axis_m = from_m, along = {0.0f, 1.0f, 0.0f};
+	struct beside at;
 	int home = wrap->scratch->home[piece];
-	if (home < PART_ARM_LEFT || !find_axis(wrap->cloth->body, home, from_m, &axis_m, &along))
+	if (home < PART_ARM_LEFT || !look_beside(wrap->cloth->body, home, from_m, &at))
 		return to_m;
-	struct v3 arm = v3_sub(from_m, axis_m);
-	arm = v3_mad(arm, along, -v3_dot(arm, along));
+	struct v3 arm = v3_sub(from_m, at.axis_m);
+	arm = v3_mad(arm, at.along, -v3_dot(arm, at.along));
 	float radius = v3_length(arm);
 	if (radius < curl_radius_least_m)
 		return to_m;
 	struct v3 step = v3_sub(to_m, from_m), out = v3_scale(arm, 1.0f / radius);
-	struct v3 round = v3_cross(along, out);
+	struct v3 round = v3_cross(at.along, out);
 	float turn = v3_dot(step, round) / radius;
 	struct v3 straight = v3_mad(step, round, -v3_dot(step, round));
-	return v3_add(axis_m, v3_turn(v3_add(v3_sub(from_m, axis_m), straight), along, turn));
+	struct v3 beside = v3_add(v3_sub(from_m, at.axis_m), straight);
+	return v3_add(at.axis_m, v3_turn(beside, at.along, turn));
 }

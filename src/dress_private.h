@@ -8,9 +8,10 @@
 enum { PART_NONE = -1 }; /* a home nowhere on the body */
 
 struct wrap_scratch {
-	int8_t home[PIECES_MAX]; /* enum body_part that the piece belongs to, or PART_NONE */
-	uint8_t *seeded;         /* per piece: a mark lies on it */
-	struct v3 *sum_m;        /* per vertex: predictions of a ring */
+	int8_t home[PIECES_MAX];   /* enum body_part that the piece belongs to, or PART_NONE */
+	float wrist_m[PART_COUNT]; /* cloth goes so far along a limb's bones */
+	uint8_t *seeded;           /* per piece: a mark lies on it */
+	struct v3 *sum_m;          /* per vertex: predictions of a ring */
 	int *count;
 	int *edge_first;    /* per vertex + 1: triangles on edges whose lower vertex it is */
 	int *edge_triangle; /* triangle * 3 + corner */
@@ -30,6 +31,16 @@ const struct body_mark *wrap_partner(const struct marks *marks, int number);
 
 /* Fills scratch->home and the cloth's piece_parts (dress_home.c). */
 void wrap_find_homes(struct wrap *wrap);
+
+/* Finds how far along each limb cloth may go: to wrist or ankle. */
+void wrap_measure_limbs(struct wrap *wrap);
+
+/* How far it still is along the limb's bones to wrist or ankle, below 0: past them; 1e9: the piece
+ * belongs to no limb, or the limb has neither. */
+float wrap_room(const struct wrap *wrap, int piece, struct v3 p_m);
+
+/* The point, or the place above the wrist where its growth stops. */
+struct v3 wrap_above_wrist(const struct wrap *wrap, int piece, struct v3 p_m);
 
 /* A step of growth from_m -> to_m bent round the bones of the limb that the piece belongs to, so
  * that cloth goes round a limb however far it grows. Elsewhere to_m itself. */

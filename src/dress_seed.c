@@ -10,9 +10,10 @@
  */
 #include "dress_private.h"
 
-static const float seed_width = 0.75f; /* of the mesh's edge length, to each side; */
-static const float rim_width = 1.5f;   /* of a line along a rim, which has cloth on one side only */
+static const float seed_width = 0.75f; /* of the mesh's edge length, to each side */
+static const float rim_width = 1.3f;   /* the same along a rim, where one side is cloth */
 static const float lengths_differ = 0.3f;
+static const float share_least = 0.5f; /* cloth is not pushed together more than so */
 
 void wrap_diagnose(struct wrap *wrap, const char *kind, int mark_1, int mark_2, const char *text)
 {
@@ -122,43 +123,52 @@ static float nearest_on_line(const struct v3 *line_m, int count, struct v2 p_m, 
 	return best;
 }
 
-/* Does a vertex lie within `width` of the cloth's line, where the body's goes along? */
-static bool near_line(const struct wrap *wrap, const struct cloth_mark *mark, int v, float width,
-		      float body_m, float *along_m, float *lateral_m)
-{
-	return nearest_on_line(wrap->scratch->cloth_line_m, mark->point_count,
-			       wrap->cloth->garment->rest_m[v], along_m, lateral_m) <= width &&
-	       *along_m <= body_m + width;
-}
-
-/* Growth starts from whole triangles: is one near the line? */
-static bool holds_triangle(const struct wrap *wrap, const struct cloth_mark *mark, float width,
-			   float body_m)
+/* How much of its length cloth may keep on a limb: its far end is to come to lie above hand or
+ * foot. 1: it is not too long. */
+static float limb_share(const struct wrap *wrap, const struct cloth_mark *mark,
+			const struct body_mark *on)
 {
 	const struct garment *garment = wrap->cloth->garment;
-	float along_m, lateral_m;
-	for (int t = garment->piece_first_triangle[mark->piece];
-	     t < garment->piece_first_triangle[mark->piece + 1]; t++) {
-		int inside = 0;
-		for (int k = 0; k < 3; k++)
-			inside += near_line(wrap, mark, garment->triangle[t].v[k], width, body_m,
-					    &along_m, &lateral_m);
-		if (inside == 3)
+	const struct wrap_scratch *s = wrap->scratch;
+	int count = mark->point_count, points = on->point_count;
+	struct v3 a = s->cloth_line_m[count - 2], b = s->cloth_line_m[count - 1];
+	struct v2 u = v2_normalize((struct v2){b.x - a.x, b.y - a.y});
+	float line_m = 0.0f, past_m = 0.0f, free_m = s->along_m[points - 1];
+	for (int i = 1; i < count; i++)
+		line_m += v3_distance(s->cloth_line_m[i - 1], s->cloth_line_m[i]);
+	for (int v = garment->piece_first[mark->piece]; v < garment->piece_first[mark->piece + 1];
+	     v++)
+		past_m = float_max(past_m,
+				   v2_dot(v2_sub(garment->rest_m[v], (struct v2){b.x, b.y}), u));
+	float room_m = wrap_room(wrap, mark->piece, s->mark_point_m[0]);
+	float room_end_m = wrap_room(wrap, mark->piece, s->mark_point_m[points - 1]);
+	if (room_m > 1e6f || room_end_m > room_m)
+		return 1.0f;
+	free_m += room_end_m;
+	return float_clamp(free_m / float_max(line_m + past_m, 1e-3f), share_least, 1.0f);
+}
+
+/* Has a triangle of the piece been laid, from which cloth can grow? */
+static bool can_grow(const struct cloth *cloth, int piece)
+{
+	const int *first = cloth->garment->piece_first_triangle;
+	for (int t = first[piece]; t < first[piece + 1]; t++)
+		if (triangle_placed(cloth, t))
 			return true;
-	}
 	return false;
 }
 
-static int seed_mark(struct wrap *wrap, const struct cloth_mark *mark, const struct body_mark *on)
+static int seed_mark(struct wrap *wrap, const struct cloth_mark *mark, const struct body_mark *on,
+		     float wide)
 {
 	struct cloth *cloth = wrap->cloth;
 	const struct garment *garment = cloth->garment;
 	float body_m = body_line(wrap, on), cloth_m = cloth_line(wrap, mark);
-	float width = seed_width * garment->edge_m;
-	if (!holds_triangle(wrap, mark, width, body_m))
-		width = rim_width * garment->edge_m;
+	float width = wide * garment->edge_m;
+	float share = limb_share(wrap, mark, on);
 	int seeds = 0;
-	if (float_abs(body_m - cloth_m) > lengths_differ * float_max(body_m, cloth_m))
+	if (wide == seed_width &&
+	    float_abs(body_m - cloth_m) > lengths_differ * float_max(body_m, cloth_m))
 		wrap_diagnose(
 			wrap, "lengths-differ", mark->number, 0,
 			"The two lines of mark %1 differ much in length; the cloth is laid from "
@@ -166,9 +176,11 @@ static int seed_mark(struct wrap *wrap, const struct cloth_mark *mark, const str
 	for (int v = garment->piece_first[mark->piece]; v < garment->piece_first[mark->piece + 1];
 	     v++) {
 		float along_m, lateral_m;
-		if (!near_line(wrap, mark, v, width, body_m, &along_m, &lateral_m))
+		if (nearest_on_line(wrap->scratch->cloth_line_m, mark->point_count,
+				    garment->rest_m[v], &along_m, &lateral_m) > width ||
+		    along_m * share > body_m + width)
 			continue;
-		cloth->goal_m[v] = place_on_body(wrap, on->point_count, along_m, lateral_m);
+		cloth->goal_m[v] = place_on_body(wrap, on->point_count, along_m * share, lateral_m);
 		cloth->position_m[v] = cloth->previous_m[v] = cloth->goal_m[v];
 		cloth->placed[v] = 1;
 		cloth->held[v] = 1;
@@ -273,11 +285,15 @@ int wrap_seed(struct wrap *wrap)
 	int seeds = 0;
 	memset(wrap->scratch->seeded, 0, PIECES_MAX);
 	wrap_find_homes(wrap);
+	wrap_measure_limbs(wrap);
 	for (int m = 0; m < MARKS_MAX; m++) {
 		const struct cloth_mark *mark = &marks->cloth[m];
 		const struct body_mark *on = mark->used ? wrap_partner(marks, mark->number) : NULL;
-		if (on && mark->point_count >= 2 && on->point_count >= 2)
-			seeds += seed_mark(wrap, mark, on);
+		if (!on || mark->point_count < 2 || on->point_count < 2)
+			continue;
+		seeds += seed_mark(wrap, mark, on, seed_width);
+		if (!can_grow(wrap->cloth, mark->piece))
+			seeds += seed_mark(wrap, mark, on, rim_width);
 	}
 	choose_drawn(wrap);
 	diagnose_lonely(wrap);

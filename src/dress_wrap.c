@@ -109,17 +109,16 @@ bool wrap_start(struct wrap *wrap, struct cloth *cloth, const struct marks *mark
 	return true;
 }
 
-static void begin_close(struct wrap *wrap)
+static void diagnose_unreached(struct wrap *wrap)
 {
 	const struct cloth *cloth = wrap->cloth;
 	int missing = 0;
 	for (int v = 0; v < cloth->garment->vertex_count; v++)
-		missing += !cloth->placed[v];
+		missing += !cloth->placed[cloth->particle[v]];
 	if (missing > 0)
 		wrap_diagnose(wrap, "piece-unreached", 0, 0,
 			      "Some cloth has no mark and is not sewn to cloth that has one; it "
 			      "stays on the sheet.");
-	enter(wrap, WRAP_CLOSE, closing());
 }
 
 static long grow(struct wrap *wrap)
@@ -127,7 +126,8 @@ static long grow(struct wrap *wrap)
 	if (wrap->progress % RING_SWEEPS == 0) {
 		int placed = wrap_grow_ring(wrap);
 		if (placed == 0) {
-			begin_close(wrap);
+			diagnose_unreached(wrap);
+			enter(wrap, WRAP_CLOSE, closing());
 			return 1;
 		}
 		wrap->progress++;
@@ -222,21 +222,28 @@ static long close_up(struct wrap *wrap)
 	return cloth_sweep(wrap->cloth);
 }
 
-/* Some sweeps as one cloth, then rounds of turning folds back, until there are none. */
+/* Some sweeps as one cloth. */
 static long weld(struct wrap *wrap)
+{
+	if (wrap->progress++ < WELD_SWEEPS)
+		return cloth_sweep(wrap->cloth);
+	enter(wrap, WRAP_UNFOLD, unfolding());
+	return 1;
+}
+
+/* Rounds of turning folds back, until there are none. */
+static long unfold(struct wrap *wrap)
 {
 	struct cloth *cloth = wrap->cloth;
 	struct wrap_scratch *s = wrap->scratch;
-	int after = wrap->progress - WELD_SWEEPS;
-	if (after >= 0 && after % UNFOLD_SWEEPS == 0) {
-		cloth->settings = unfolding();
+	if (wrap->progress % UNFOLD_SWEEPS == 0) {
 		if (s->rounds++ >= UNFOLD_ROUNDS || cloth_unfold(cloth) == 0) {
 			enter(wrap, WRAP_SETTLE, settling());
 			return cloth->garment->triangle_count;
 		}
 	}
 	wrap->progress++;
-	return cloth_sweep(cloth);
+	return cloth_sweep(wrap->cloth);
 }
 
 static long settle(struct wrap *wrap)
@@ -269,6 +276,8 @@ long wrap_advance(struct wrap *wrap, long quota)
 			units += close_up(wrap);
 		else if (wrap->stage == WRAP_WELD)
 			units += weld(wrap);
+		else if (wrap->stage == WRAP_UNFOLD)
+			units += unfold(wrap);
 		else if (wrap->stage == WRAP_SETTLE)
 			units += settle(wrap);
 	} while (units < quota && is_running(wrap));
