@@ -196,6 +196,15 @@ struct v3 wrap_above_wrist(const struct wrap *wrap, int piece, struct v3 p_m)
 	return v3_mad(p_m, at.along, float_min(wrap->scratch->wrist_m[home] - at.reach_m, 0.0f));
 }
 
+bool wrap_outward(const struct body *body, const struct body_hit *hit, struct v3 *out)
+{
+	struct beside at;
+	if (!look_beside(body, body->part[hit->triangle], hit->point_m, &at))
+		return false;
+	*out = v3_normalize(v3_sub(hit->point_m, at.axis_m));
+	return true;
+}
+
 struct v3 wrap_curl(const struct wrap *wrap, int piece, struct v3 from_m, struct v3 to_m)
 {
 	struct beside at;

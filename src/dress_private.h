@@ -42,6 +42,9 @@ float wrap_room(const struct wrap *wrap, int piece, struct v3 p_m);
 /* The point, or the place above the wrist where its growth stops. */
 struct v3 wrap_above_wrist(const struct wrap *wrap, int piece, struct v3 p_m);
 
+/* The direction away from the bones of the part that was hit. False: it has none. */
+bool wrap_outward(const struct body *body, const struct body_hit *hit, struct v3 *out);
+
 /* A step of growth from_m -> to_m bent round the bones of the limb that the piece belongs to, so
  * that cloth goes round a limb however far it grows. Elsewhere to_m itself. */
 struct v3 wrap_curl(const struct wrap *wrap, int piece, struct v3 from_m, struct v3 to_m);

@@ -10,8 +10,12 @@
  */
 #include "dress_private.h"
 
-static const float seed_width = 0.75f; /* of the mesh's edge length, to each side */
-static const float rim_width = 1.3f;   /* the same along a rim, where one side is cloth */
+static const float seed_width = 0.75f;    /* of the mesh's edge length, to each side */
+static const float rim_width = 1.3f;      /* the same along a rim, where one side is cloth */
+static const float probe_m = 0.03f;       /* skin that has less room before it is a cleft's */
+static const float cleft_free_m = 0.008f; /* outside a cleft its sides are farther */
+static const float cleft_depth_m = 0.06f;
+static const float looks_down = -0.35f; /* y of a normal */
 static const float lengths_differ = 0.3f;
 static const float share_least = 0.5f; /* cloth is not pushed together more than so */
 
@@ -49,6 +53,24 @@ const struct body_mark *wrap_partner(const struct marks *marks, int number)
 	return NULL;
 }
 
+/* A line drawn into a cleft (between the buttocks, under an arm) lies before it, where cloth does,
+ * and faces away from the bones: the skin of a cleft faces its other side. */
+static void leave_cleft(const struct body *body, struct body_hit *hit)
+{
+	struct body_hit other;
+	struct v3 out, from_m = hit->point_m;
+	body_nearest(body, v3_mad(from_m, hit->normal, probe_m), 0, &other);
+	if (other.distance_m > 0.5f * probe_m || !wrap_outward(body, hit, &out))
+		return;
+	hit->normal = out;
+	for (float way_m = 0.0f; way_m < cleft_depth_m; way_m += 0.004f) {
+		hit->point_m = v3_mad(from_m, out, way_m);
+		body_nearest(body, hit->point_m, 0, &other);
+		if (other.distance_m > cleft_free_m)
+			return;
+	}
+}
+
 /* The body's line without the hand's tremor: steadied and laid back onto the surface. */
 static float body_line(struct wrap *wrap, const struct body_mark *mark)
 {
@@ -58,6 +80,7 @@ static float body_line(struct wrap *wrap, const struct body_mark *mark)
 	for (int i = 0; i < count; i++) {
 		struct body_hit hit;
 		body_nearest(wrap->cloth->body, s->mark_point_m[i], 0, &hit);
+		leave_cleft(wrap->cloth->body, &hit);
 		s->drawn[i] = hit.normal;
 		s->mark_point_m[i] = hit.point_m;
 		s->along_m[i] = i == 0 ? 0.0f
@@ -82,17 +105,35 @@ static float cloth_line(struct wrap *wrap, const struct cloth_mark *mark)
 	return length;
 }
 
+/* Which step of the body's line holds an arc length; *f: how far along the step. */
+static int step_at(const struct wrap_scratch *s, int count, float along_m, float *f)
+{
+	int i = 0;
+	while (i + 2 < count && s->along_m[i + 1] < along_m)
+		i++;
+	float length = v3_distance(s->mark_point_m[i], s->mark_point_m[i + 1]);
+	*f = (along_m - s->along_m[i]) / float_max(length, 1e-6f);
+	return i;
+}
+
+/* Cloth that goes round the trunk hangs before places that look down: between the legs, under a
+ * belly. */
+static bool can_lie(const struct wrap *wrap, int piece, int count, float along_m)
+{
+	float f;
+	int i = step_at(wrap->scratch, count, along_m, &f);
+	return wrap->scratch->home[piece] != PART_TRUNK ||
+	       wrap->scratch->mark_normal[i].y > looks_down;
+}
+
 /* The place on the body that belongs to arc length and lateral distance on the cloth; beyond the
  * body's line it goes straight on. */
 static struct v3 place_on_body(const struct wrap *wrap, int count, float along_m, float lateral_m)
 {
 	const struct wrap_scratch *s = wrap->scratch;
-	int i = 0;
-	while (i + 2 < count && s->along_m[i + 1] < along_m)
-		i++;
+	float f;
+	int i = step_at(s, count, along_m, &f);
 	struct v3 a = s->mark_point_m[i], step = v3_sub(s->mark_point_m[i + 1], a);
-	float length = float_max(v3_length(step), 1e-6f);
-	float f = (along_m - s->along_m[i]) / length;
 	struct v3 normal = v3_normalize(
 		v3_lerp(s->mark_normal[i], s->mark_normal[i + 1], float_clamp(f, 0.0f, 1.0f)));
 	struct v3 left = v3_normalize(v3_cross(normal, step));
@@ -179,6 +220,8 @@ static int seed_mark(struct wrap *wrap, const struct cloth_mark *mark, const str
 		if (nearest_on_line(wrap->scratch->cloth_line_m, mark->point_count,
 				    garment->rest_m[v], &along_m, &lateral_m) > width ||
 		    along_m * share > body_m + width)
+			continue;
+		if (!can_lie(wrap, mark->piece, on->point_count, along_m * share))
 			continue;
 		cloth->goal_m[v] = place_on_body(wrap, on->point_count, along_m * share, lateral_m);
 		cloth->position_m[v] = cloth->previous_m[v] = cloth->goal_m[v];
