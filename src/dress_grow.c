@@ -38,7 +38,7 @@ static int enter_pieces(struct wrap *wrap)
 		    wrap->scratch->seeded[garment->piece[to]])
 			continue;
 		cloth->position_m[to] = cloth->previous_m[to] = cloth->position_m[from];
-		cloth->contact[to] = cloth->contact[from];
+		cloth_look(cloth, to);
 		cloth->placed[to] = 2; /* not itself a source in this ring */
 		placed++;
 	}

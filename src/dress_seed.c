@@ -11,7 +11,7 @@
 #include "dress_private.h"
 
 static const float seed_width = 0.75f;    /* of the mesh's edge length, to each side */
-static const float rim_width = 1.3f;      /* the same along a rim, where one side is cloth */
+static const float rim_width = 1.5f;      /* the same along a rim, where one side is cloth */
 static const float probe_m = 0.03f;       /* skin that has less room before it is a cleft's */
 static const float cleft_free_m = 0.008f; /* outside a cleft its sides are farther */
 static const float cleft_depth_m = 0.06f;
