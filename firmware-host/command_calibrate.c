@@ -82,7 +82,7 @@ static enum kind kind_now(const struct session *session)
 		return DRAGGING;
 	if (session->relaxing)
 		return RELAXING;
-	return session->clean_frames > 0 ? CLEANING : MOVING;
+	return session->still_frames > 0 ? CLEANING : MOVING;
 }
 
 static void advance(struct calibration *calibration)

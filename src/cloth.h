@@ -106,19 +106,21 @@ void cloth_restore(struct cloth *cloth, const struct garment *garment, const str
 		   const struct v3 *position_m, const uint8_t *placed, bool welded, bool worn);
 
 /* Mends folded patches: triangles that face the body turn back with their ring (S18's last clause).
- * Returns how many were found. */
-int cloth_unfold(struct cloth *cloth);
+ * Looks at slice `slice` of `slices` of all triangles; slices come in order, and what was found is
+ * mended with the last. Returns how many were found since the first; *units grows by the units
+ * spent, here and below. */
+int cloth_unfold(struct cloth *cloth, int slice, int slices, long *units);
 
 /* Does the triangle's outside look at the body that it lies near? */
 bool cloth_folded(const struct cloth *cloth, int triangle);
 
 /* Pushes edges out that pass through the body, by exact queries: slice `slice` of `slices` of all
  * triangles. Returns how many were found. */
-int cloth_push_out(struct cloth *cloth, int slice, int slices);
+int cloth_push_out(struct cloth *cloth, int slice, int slices, long *units);
 
 /* Contact alone, by exact queries, for slice `slice` of `slices` of all particles and triangles;
  * all slices are a round. When a round finds no edge that passes through the body, the cloth may
- * rest. Returns how many were found; *units grows by the units spent. */
+ * rest. Returns how many were found. */
 int cloth_clean(struct cloth *cloth, int slice, int slices, long *units);
 
 /* Outward normals per vertex for drawing, into `normal` (vertex_count). */

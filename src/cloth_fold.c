@@ -1,7 +1,13 @@
 /* Folds turned back, edges pushed out: the help that physics would not give (S18). */
 #include "cloth_private.h"
 
-enum { SMOOTH_ROUNDS = 20, EDGE_SAMPLES = 8 };
+enum {
+	SMOOTH_ROUNDS = 20,
+	EDGE_SAMPLES = 8,
+	LOOK_UNITS = 32, /* an exact query */
+	FOLD_UNITS = 8,  /* a triangle's centre walked to the body */
+	EDGE_UNITS = 8,  /* an edge's way through the tree, where it is short */
+};
 
 static const float fold_reach_m = 0.06f; /* a fold matters this near to the body */
 static const float fold_near_m = 0.02f;  /* and so near even when it only leans over */
@@ -71,29 +77,39 @@ static void smooth(struct cloth *cloth)
 	}
 }
 
-int cloth_unfold(struct cloth *cloth)
+static void flag_folds(struct cloth *cloth, int slice, int slices)
 {
 	struct cloth_scratch *s = cloth->scratch;
-	int found = 0;
-	memset(s->flipped, 0, (size_t)cloth->garment->vertex_count);
-	for (int t = 0; t < cloth->garment->triangle_count; t++) {
+	for (int t = slice; t < cloth->garment->triangle_count; t += slices) {
 		const int *v = cloth->triangle[t].v;
 		bool wanted = cloth->creased[v[0]] && cloth->creased[v[1]] && cloth->creased[v[2]];
 		if (wanted || !cloth_folded(cloth, t))
 			continue;
-		found++;
+		s->fold_count++;
 		for (int k = 0; k < 3; k++)
 			s->flipped[v[k]] = 1;
 	}
-	if (found == 0)
-		return 0;
+}
+
+int cloth_unfold(struct cloth *cloth, int slice, int slices, long *units)
+{
+	struct cloth_scratch *s = cloth->scratch;
+	if (slice == 0) {
+		s->fold_count = 0;
+		memset(s->flipped, 0, (size_t)cloth->garment->vertex_count);
+	}
+	flag_folds(cloth, slice, slices);
+	*units += FOLD_UNITS * (cloth->garment->triangle_count / slices);
+	if (s->fold_count == 0 || slice < slices - 1)
+		return s->fold_count;
 	flag_ring(cloth);
 	for (int v = 0; v < cloth->garment->vertex_count; v++)
 		s->stiff[v] |= s->flipped[v] != 0;
 	for (int round = 0; round < SMOOTH_ROUNDS; round++)
 		smooth(cloth);
+	*units += SMOOTH_ROUNDS * (long)cloth->garment->vertex_count;
 	cloth_finish(cloth);
-	return found;
+	return s->fold_count;
 }
 
 /* ---- edges ---- */
@@ -120,15 +136,17 @@ static bool push_edge(struct cloth *cloth, int a, int b)
 	return true;
 }
 
-int cloth_push_out(struct cloth *cloth, int slice, int slices)
+int cloth_push_out(struct cloth *cloth, int slice, int slices, long *units)
 {
 	int found = 0;
 	float close_m = 2.0f * cloth->garment->edge_m;
 	for (int t = slice; t < cloth->garment->triangle_count; t += slices)
 		for (int k = 0; triangle_placed(cloth, t) && k < 3; k++) {
 			int a = cloth->triangle[t].v[k], b = cloth->triangle[t].v[(k + 1) % 3];
-			if (cloth->contact[a].distance_m < close_m)
+			if (cloth->contact[a].distance_m < close_m) {
 				found += push_edge(cloth, a, b);
+				*units += EDGE_UNITS;
+			}
 		}
 	if (found > 0)
 		cloth_finish(cloth);
@@ -141,10 +159,12 @@ int cloth_clean(struct cloth *cloth, int slice, int slices, long *units)
 	for (int v = 0; v < count; v++)
 		cloth->scratch->start_m[v] = cloth->position_m[v];
 	for (int v = slice; v < count; v += slices)
-		if (is_particle(cloth, v))
+		if (is_particle(cloth, v)) {
 			cloth_look(cloth, v);
+			*units += LOOK_UNITS;
+		}
 	*units += cloth_contact_faces(cloth, slice, slices);
-	int found = cloth_push_out(cloth, slice, slices);
+	int found = cloth_push_out(cloth, slice, slices, units);
 	*units += cloth_contact(cloth);
 	cloth_finish(cloth);
 	return found;

@@ -21,7 +21,8 @@ struct cloth_scratch {
 	int *edge_triangle;     /* triangle * 3 + corner */
 	int *rim_first;         /* per piece + 1: its open edges */
 	int *rim;               /* triangle * 3 + corner */
-	uint8_t *flipped;       /* per triangle or particle, while folds are turned back */
+	uint8_t *flipped;       /* per particle, while folds are turned back */
+	int fold_count;         /* found since the first slice of triangles */
 	int *ring_first, *ring; /* neighbours of particles */
 	struct v3 *smooth_m;
 	uint8_t *edge_owner; /* per triangle: bit k: edge k is looked at here, not in its neighbour

@@ -236,28 +236,30 @@ static long unfold(struct wrap *wrap)
 {
 	struct cloth *cloth = wrap->cloth;
 	struct wrap_scratch *s = wrap->scratch;
+	long units = 0;
 	if (wrap->progress % UNFOLD_SWEEPS == 0) {
-		if (s->rounds++ >= UNFOLD_ROUNDS || cloth_unfold(cloth) == 0) {
+		if (s->rounds++ >= UNFOLD_ROUNDS || cloth_unfold(cloth, 0, 1, &units) == 0) {
 			enter(wrap, WRAP_SETTLE, settling());
-			return cloth->garment->triangle_count;
+			return units + 1;
 		}
 	}
 	wrap->progress++;
-	return cloth_sweep(wrap->cloth);
+	return units + cloth_sweep(cloth);
 }
 
 static long settle(struct wrap *wrap)
 {
 	struct cloth *cloth = wrap->cloth;
 	int after = wrap->progress - SETTLE_SWEEPS;
+	long units = 0;
 	wrap->progress++;
 	if (after < 0)
 		return cloth_sweep(cloth);
-	if (after < PUSH_ROUNDS && cloth_push_out(cloth, 0, 1) > 0)
-		return cloth_sweep(cloth) + cloth->garment->triangle_count;
+	if (after < PUSH_ROUNDS && cloth_push_out(cloth, 0, 1, &units) > 0)
+		return units + cloth_sweep(cloth);
 	wrap->stage = WRAP_DONE;
 	cloth->worn = true;
-	return 1;
+	return units + 1;
 }
 
 static bool is_running(const struct wrap *wrap)

@@ -52,7 +52,8 @@ struct session {
 	int untouched_frames;       /* since an edit last woke the cloth */
 	int unfolds;                /* since then */
 	int rest_frames;            /* frames since the cloth last had a reason to move */
-	int clean_frames;           /* 0: still moving; else frames of cleaning begun */
+	int relax_frames;           /* for which RELAX has been held */
+	int still_frames;           /* 0: still moving; else frames of getting ready for sleep */
 	int clean_found;            /* edges pushed out in this round of cleaning */
 	bool asleep;                /* clean and at rest: until something touches it */
 	struct v3 *frame_start_m;   /* the cloth as the frame began, to see whether it rests */

@@ -4,16 +4,18 @@
 enum {
 	SWEEPS_A_FRAME_MAX = 10,
 	WRAP_SHARE = 3,
-	SWEEPS_BETWEEN_UNFOLDS = 200, /* while RELAX is held */
+	UNFOLD_SLICES = 20, /* frames between unfoldings while RELAX is held */
 	REST_FRAMES = 30, /* so many calm frames, and the cloth goes to sleep until it is touched */
 	COOL_FRAMES = 90, /* after the last touch momentum begins to fade */
 	SLEEP_FRAMES = 300, /* and here the cloth goes to sleep in any case */
 	UNFOLDS_MAX = 4,    /* before it may */
 	PUSH_SLICES = 16,
-	CLEAN_SLICES = 8, /* frames a round: each has about a frame's work */
-	CLEAN_ROUNDS = 6, /* at most; two when nothing is found */
-	PAUSE_FRAMES = 6, /* a pen that rests so long lets the cloth relax under it */
-	EASE_FRAMES = 90, /* and so long it relaxes after the last touch */
+	STILL_SLICES = 8,  /* frames a round of looking for folds or of cleaning */
+	CLEAN_ROUNDS = 6,  /* at most; two when nothing is found */
+	BUILD_UNITS = 200, /* a vertex's share of the cloth's tables does */
+	CUT_UNITS = 8,     /* a step of the mesher costs as much as so many units */
+	PAUSE_FRAMES = 6,  /* a pen that rests so long lets the cloth relax under it */
+	EASE_FRAMES = 90,  /* and so long it relaxes after the last touch */
 };
 
 static const float calm_m = 0.00002f; /* particles moved less than this in a frame, in the mean */
@@ -24,21 +26,23 @@ void session_wake(struct session *session)
 	session->rest_frames = 0;
 	session->untouched_frames = 0;
 	session->unfolds = 0;
-	session->clean_frames = 0;
+	session->still_frames = 0;
 	session->asleep = false;
 }
 
+/* The cloth's own tables are built in a frame after the last of the mesh. */
 static long advance_mesh(struct session *session)
 {
 	bool done = false;
-	long units = garment_advance(session->mesher, session->budget_units, &done);
-	if (!done)
+	long steps = int_max(1, (int)(session->budget_units / CUT_UNITS));
+	long units = CUT_UNITS * garment_advance(session->mesher, steps, &done);
+	if (!done || units > 0)
 		return units;
 	cloth_reset(&session->cloth, &session->garment, &session->body);
 	session->job = JOB_WRAP;
 	if (!wrap_start(&session->wrap, &session->cloth, &session->document.marks))
 		session->job = JOB_NONE;
-	return units;
+	return BUILD_UNITS * (long)session->garment.vertex_count;
 }
 
 static long advance_wrap(struct session *session)
@@ -78,41 +82,53 @@ static bool touched(const struct session *session)
 	return session->drag.active || session->relaxing;
 }
 
-/* Counts towards sleep. Before it sleeps the cloth turns its last folds back, and moves once more;
- * then it is cleaned, so that it lies still exactly outside the body. */
+/* Counts towards sleep. */
 static void note_rest(struct session *session)
 {
 	session->rest_frames = is_calm(session) ? session->rest_frames + 1 : 0;
 	session->untouched_frames++;
 	if (touched(session))
-		session->untouched_frames = session->clean_frames = 0;
-	if (touched(session) ||
-	    (session->rest_frames < REST_FRAMES && session->untouched_frames < SLEEP_FRAMES))
-		return;
-	if (session->unfolds < UNFOLDS_MAX && !is_pinned(session) &&
-	    cloth_unfold(&session->cloth) > 0) {
-		session->unfolds++;
-		session->rest_frames = 0;
-		session->untouched_frames = COOL_FRAMES;
-		return;
-	}
-	session->clean_frames = 1;
+		session->untouched_frames = 0;
+	bool still = session->rest_frames >= REST_FRAMES ||
+		     session->untouched_frames >= SLEEP_FRAMES;
+	session->still_frames = !touched(session) && still;
 	session->clean_found = 0;
 }
 
-/* A slice of a round of cleaning; the cloth sleeps when a second round or the last finds nothing
- * to push out. */
-static long advance_clean(struct session *session)
+/* The last folds are turned back, and the cloth moves once more. */
+static void unfold_slice(struct session *session, int slice, long *units)
 {
-	int slice = (session->clean_frames - 1) % CLEAN_SLICES;
-	int round = (session->clean_frames - 1) / CLEAN_SLICES;
-	long units = 0;
-	session->clean_found += cloth_clean(&session->cloth, slice, CLEAN_SLICES, &units);
-	session->clean_frames++;
-	if (slice < CLEAN_SLICES - 1)
-		return units;
+	if (session->unfolds >= UNFOLDS_MAX || is_pinned(session) ||
+	    cloth_unfold(&session->cloth, slice, STILL_SLICES, units) == 0 ||
+	    slice < STILL_SLICES - 1)
+		return;
+	session->unfolds++;
+	session->rest_frames = session->still_frames = 0;
+	session->untouched_frames = COOL_FRAMES;
+}
+
+/* A round of cleaning; the cloth sleeps when a second one or the last finds nothing to push out. */
+static void clean_slice(struct session *session, int slice, int round, long *units)
+{
+	session->clean_found += cloth_clean(&session->cloth, slice, STILL_SLICES, units);
+	if (slice < STILL_SLICES - 1)
+		return;
 	session->asleep = (session->clean_found == 0 && round > 0) || round == CLEAN_ROUNDS - 1;
 	session->clean_found = 0;
+}
+
+/* Before it sleeps the cloth is looked through for folds and then cleaned, so that it lies still
+ * exactly outside the body; in slices, so that no frame pays for all of it. */
+static long advance_still(struct session *session)
+{
+	int slice = (session->still_frames - 1) % STILL_SLICES;
+	int round = (session->still_frames - 1) / STILL_SLICES;
+	long units = 1;
+	session->still_frames++;
+	if (round == 0)
+		unfold_slice(session, slice, &units);
+	else
+		clean_slice(session, slice, round - 1, &units);
 	return units;
 }
 
@@ -155,12 +171,14 @@ static long advance_cloth(struct session *session)
 	memcpy(session->frame_start_m, cloth->position_m,
 	       (size_t)session->garment.vertex_count * sizeof(struct v3));
 	for (int sweep = 0; sweep < SWEEPS_A_FRAME_MAX && units < session->budget_units; sweep++) {
-		if (session->relaxing && cloth->sweep % SWEEPS_BETWEEN_UNFOLDS == 0)
-			cloth_unfold(cloth);
 		units += cloth_sweep(cloth);
 	}
+	session->relax_frames = session->relaxing ? session->relax_frames + 1 : 0;
+	if (session->relaxing)
+		cloth_unfold(cloth, (session->relax_frames - 1) % UNFOLD_SLICES, UNFOLD_SLICES,
+			     &units);
 	crease_rest(cloth, session->frame_start_m);
-	cloth_push_out(cloth, session->frame % PUSH_SLICES, PUSH_SLICES);
+	cloth_push_out(cloth, session->frame % PUSH_SLICES, PUSH_SLICES, &units);
 	cloth_finish(cloth);
 	note_rest(session);
 	session->strain_left = float_clamp(cloth_strain_mean(cloth) / 0.1f, 0.0f, 1.0f);
@@ -182,8 +200,8 @@ void session_advance(struct session *session)
 		units = advance_wrap(session);
 	else if (cloth_sleeps(session))
 		units = 0;
-	else if (session->clean_frames > 0 && !touched(session))
-		units = advance_clean(session);
+	else if (session->still_frames > 0 && !touched(session))
+		units = advance_still(session);
 	else
 		units = advance_cloth(session);
 	session->frame_units = units;
