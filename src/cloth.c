@@ -3,6 +3,51 @@
 
 enum { FACE_SLICES = 10 }; /* a frame's sweeps: all faces once a frame */
 
+static const float far_m = 0.035f; /* a body farther than this pulls drawn pieces */
+
+static void init_order(struct cloth_scratch *s, struct arena *arena)
+{
+	s->ranked = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
+	s->rank = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
+	s->triangle_order = ARENA_ARRAY(arena, int, GARMENT_TRIANGLES_MAX);
+	s->flat_order = ARENA_ARRAY(arena, int, GARMENT_EDGES_MAX);
+	s->sorted = ARENA_ARRAY(arena, int, GARMENT_EDGES_MAX);
+	s->taken = ARENA_ARRAY(arena, uint64_t, GARMENT_VERTICES_MAX);
+	s->colour = ARENA_ARRAY(arena, uint8_t, GARMENT_EDGES_MAX);
+	s->taken_placed = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
+	s->slot = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
+	s->slot_vertex = ARENA_ARRAY(arena, int, PADS + GARMENT_VERTICES_MAX);
+	s->place = ARENA_ARRAY(arena, struct place, PADS + GARMENT_VERTICES_MAX);
+	s->shape = ARENA_ARRAY(arena, struct shape_batch, SHAPE_BATCHES_MAX);
+	s->flat = ARENA_ARRAY(arena, struct flat_batch, FLAT_BATCHES_MAX);
+}
+
+static void init_levels(struct cloth_scratch *s, struct arena *arena)
+{
+	int members = GARMENT_VERTICES_MAX;
+	for (int l = 0; l < LEVELS; l++) {
+		struct level *level = &s->level[l];
+		level->spread = ARENA_ARRAY(arena, struct spread, members);
+		level->node = ARENA_ARRAY(arena, int, LEVEL_NODES_MAX);
+		level->link = ARENA_ARRAY(arena, struct link, LEVEL_LINKS_MAX);
+		level->taut = ARENA_ARRAY(arena, struct link, LEVEL_LINKS_MAX);
+		level->at = ARENA_ARRAY(arena, struct place, LEVEL_NODES_MAX);
+		level->move = ARENA_ARRAY(arena, struct place, LEVEL_NODES_MAX);
+		members = LEVEL_NODES_MAX;
+	}
+	s->slot_spread = ARENA_ARRAY(arena, struct spread, PADS + GARMENT_VERTICES_MAX);
+	s->star_first = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX + 2);
+	s->star = ARENA_ARRAY(arena, int, 3 * GARMENT_TRIANGLES_MAX);
+	s->member = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
+	s->member_at = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
+	s->node_at = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
+	s->covered = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
+	s->way_m = ARENA_ARRAY(arena, float, GARMENT_VERTICES_MAX);
+	s->way_of = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
+	s->heap = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
+	s->heap_at = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
+}
+
 void cloth_init(struct cloth *cloth, struct arena *arena)
 {
 	memset(cloth, 0, sizeof *cloth);
@@ -16,10 +61,8 @@ void cloth_init(struct cloth *cloth, struct arena *arena)
 	cloth->particle = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
 	cloth->triangle = ARENA_ARRAY(arena, struct triangle, GARMENT_TRIANGLES_MAX);
 	cloth->flat = ARENA_ARRAY(arena, struct flat, GARMENT_EDGES_MAX);
-	cloth->reach = ARENA_ARRAY(arena, struct reach, REACHES_PER_VERTEX * GARMENT_VERTICES_MAX);
 	struct cloth_scratch *s = ARENA_ARRAY(arena, struct cloth_scratch, 1);
 	s->rest = ARENA_ARRAY(arena, struct rest, GARMENT_TRIANGLES_MAX);
-	s->order = ARENA_ARRAY(arena, int, GARMENT_TRIANGLES_MAX);
 	s->start_m = ARENA_ARRAY(arena, struct v3, GARMENT_VERTICES_MAX);
 	s->edge_first = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX + 2);
 	s->edge_triangle = ARENA_ARRAY(arena, int, 3 * GARMENT_TRIANGLES_MAX);
@@ -34,8 +77,11 @@ void cloth_init(struct cloth *cloth, struct arena *arena)
 	s->track = ARENA_ARRAY(arena, struct body_track, GARMENT_VERTICES_MAX);
 	s->lift_m = ARENA_ARRAY(arena, float, GARMENT_VERTICES_MAX);
 	s->slack_m = ARENA_ARRAY(arena, float, GARMENT_VERTICES_MAX);
+	init_order(s, arena);
+	init_levels(s, arena);
 	cloth->scratch = s;
 	cloth->self = cloth_self_init(arena);
+	cloth->lanes = 4;
 	cloth->settings = cloth_settings_worn();
 }
 
@@ -43,9 +89,10 @@ struct cloth_settings cloth_settings_worn(void)
 {
 	return (struct cloth_settings){
 		.shape = 0.9f,
-		.shape_passes = 1,
+		.shape_passes = 2,
 		.flatness = 0.02f,
-		.reach = 0.7f,
+		.shear = 1.0f,
+		.reach = 1.0f,
 		.momentum = 0.9f,
 		.gravity_m = 20e-6f,
 		.friction = 0.2f,
@@ -64,7 +111,7 @@ struct cloth_settings cloth_settings_relax(void)
 	settings.friction = 0.05f;
 	settings.grip = 0.05f;
 	settings.flatness = 0.06f;
-	settings.shape_passes = 2;
+	settings.shape_passes = 3;
 	return settings;
 }
 
@@ -76,7 +123,6 @@ void cloth_reset(struct cloth *cloth, const struct garment *garment, const struc
 	cloth->worn = false;
 	cloth->sweep = 0;
 	cloth->flat_count = 0;
-	cloth->reach_count = 0;
 	cloth->settings = cloth_settings_worn();
 	memset(cloth->placed, 0, GARMENT_VERTICES_MAX);
 	memset(cloth->held, 0, GARMENT_VERTICES_MAX);
@@ -91,7 +137,6 @@ void cloth_reset(struct cloth *cloth, const struct garment *garment, const struc
 	for (int v = 0; v < garment->vertex_count; v++)
 		cloth->contact[v] = (struct contact){.triangle = -1};
 	cloth_build(cloth);
-	cloth_build_reach(cloth);
 }
 
 void cloth_finish(struct cloth *cloth)
@@ -149,89 +194,130 @@ void cloth_restore(struct cloth *cloth, const struct garment *garment, const str
 	cloth_finish(cloth);
 }
 
-/* ---- one sweep ---- */
+/* ---- one sweep ----
+ *
+ * The particles that are placed move as `place`s (cloth_kernel.h), up to contact, which works on
+ * the public arrays. */
 
 /* Momentum, gravity and the pull of a far body. */
-static void predict(struct cloth *cloth)
+static struct v3 predicted(const struct cloth *cloth, int v)
 {
 	const struct cloth_settings *set = &cloth->settings;
-	for (int v = 0; v < cloth->garment->vertex_count; v++) {
-		if (!is_particle(cloth, v))
-			continue;
-		struct v3 *p = &cloth->position_m[v];
-		cloth->scratch->start_m[v] = *p;
-		struct v3 step = v3_scale(v3_sub(*p, cloth->previous_m[v]), set->momentum);
-		float length = v3_length(step);
-		if (length > set->step_max_m)
-			step = v3_scale(step, set->step_max_m / length);
-		*p = v3_add(*p, step);
-		p->y -= set->gravity_m;
-		const struct contact *contact = &cloth->contact[v];
-		if (set->attract_m > 0.0f && cloth->piece_drawn[cloth->garment->piece[v]] &&
-		    contact->triangle >= 0 && contact->distance_m > 0.035f)
-			*p = v3_mad(*p, contact->normal, -set->attract_m);
+	const struct contact *contact = &cloth->contact[v];
+	struct v3 p = cloth->position_m[v];
+	struct v3 step = v3_scale(v3_sub(p, cloth->previous_m[v]), set->momentum);
+	float squared = v3_dot(step, step);
+	if (squared > set->step_max_m * set->step_max_m)
+		step = v3_scale(step, set->step_max_m / sqrtf(squared));
+	p = v3_add(p, step);
+	p.y -= set->gravity_m;
+	if (set->attract_m > 0.0f && cloth->piece_drawn[cloth->garment->piece[v]] &&
+	    contact->triangle >= 0 && contact->distance_m > far_m)
+		p = v3_mad(p, contact->normal, -set->attract_m);
+	return p;
+}
+
+static void predict(struct cloth *cloth)
+{
+	struct cloth_scratch *s = cloth->scratch;
+	for (int slot = PADS; slot < s->slot_count; slot++) {
+		int v = s->slot_vertex[slot];
+		struct v3 p = predicted(cloth, v);
+		s->start_m[v] = cloth->position_m[v];
+		s->place[slot] = (struct place){p.x, p.y, p.z, 0.0f};
 	}
+}
+
+static struct v3 place_v3(const struct place *place)
+{
+	return (struct v3){place->x, place->y, place->z};
+}
+
+static void put_place(struct place *place, struct v3 p)
+{
+	*place = (struct place){p.x, p.y, p.z, 0.0f};
 }
 
 /* Both sides of a seam go half the way towards each other, at most seam_step_m in a sweep. */
 static long close_seams(struct cloth *cloth)
 {
+	struct cloth_scratch *s = cloth->scratch;
 	float most = cloth->settings.seam_step_m;
 	if (cloth->welded || most <= 0.0f)
 		return 0;
 	for (int i = 0; i < cloth->garment->pair_count; i++) {
-		int a = cloth->garment->pair[i].a, b = cloth->garment->pair[i].b;
-		if (a == b || !cloth->placed[a] || !cloth->placed[b])
+		const struct seam_pair *pair = &cloth->garment->pair[i];
+		if (pair->a == pair->b || s->slot[pair->a] < 0 || s->slot[pair->b] < 0)
 			continue;
-		struct v3 half = v3_scale(v3_sub(cloth->position_m[b], cloth->position_m[a]), 0.5f);
+		struct place *a = &s->place[s->slot[pair->a]], *b = &s->place[s->slot[pair->b]];
+		struct v3 half = v3_scale(v3_sub(place_v3(b), place_v3(a)), 0.5f);
 		float length = v3_length(half);
 		if (length > most)
 			half = v3_scale(half, most / length);
-		cloth->position_m[a] = v3_add(cloth->position_m[a], half);
-		cloth->position_m[b] = v3_sub(cloth->position_m[b], half);
+		put_place(a, v3_add(place_v3(a), half));
+		put_place(b, v3_sub(place_v3(b), half));
 	}
 	return cloth->garment->pair_count;
 }
 
-static void pull_held(struct cloth *cloth)
+static long keep_shape(struct cloth *cloth)
 {
-	for (int v = 0; v < cloth->garment->vertex_count; v++)
-		if (cloth->held[v] && is_particle(cloth, v))
-			cloth->position_m[v] = v3_lerp(cloth->position_m[v], cloth->goal_m[v],
-						       cloth->held[v] > 1 ? 0.9f : 0.5f);
+	const struct cloth_settings *set = &cloth->settings;
+	const struct kernel *kernel = kernel_of(cloth->lanes);
+	struct cloth_scratch *s = cloth->scratch;
+	for (int pass = 0; pass < set->shape_passes; pass++)
+		kernel->shape(s->place, s->shape, s->shape_count, set->shape, set->shear,
+			      (cloth->sweep + pass) & 1);
+	if (set->flatness > 0.0f)
+		kernel->flatten(s->place, s->flat, s->flat_count, set->flatness, cloth->sweep & 1);
+	return (long)BATCH * (set->shape_passes * s->shape_count + s->flat_count);
+}
+
+/* Into the public arrays again; held particles go to their goals. */
+static void put_back(struct cloth *cloth)
+{
+	struct cloth_scratch *s = cloth->scratch;
+	for (int slot = PADS; slot < s->slot_count; slot++) {
+		int v = s->slot_vertex[slot];
+		struct v3 p = place_v3(&s->place[slot]);
+		if (cloth->held[v])
+			p = v3_lerp(p, cloth->goal_m[v], cloth->held[v] > 1 ? 0.9f : 0.5f);
+		cloth->position_m[v] = p;
+	}
 }
 
 /* No particle goes farther than step_max_m in a sweep, so that none can pass through a limb. */
 static void bound_steps(struct cloth *cloth)
 {
+	struct cloth_scratch *s = cloth->scratch;
 	float most = cloth->settings.step_max_m;
-	for (int v = 0; v < cloth->garment->vertex_count; v++) {
-		if (!is_particle(cloth, v))
-			continue;
-		struct v3 start = cloth->scratch->start_m[v];
-		struct v3 step = v3_sub(cloth->position_m[v], start);
-		float length = v3_length(step);
-		if (length > most)
-			cloth->position_m[v] = v3_mad(start, step, most / length);
+	for (int slot = PADS; slot < s->slot_count; slot++) {
+		int v = s->slot_vertex[slot];
+		struct v3 start = s->start_m[v], step = v3_sub(cloth->position_m[v], start);
+		float squared = v3_dot(step, step);
+		if (squared > most * most)
+			cloth->position_m[v] = v3_mad(start, step, most / sqrtf(squared));
 	}
 }
 
 static void remember(struct cloth *cloth)
 {
-	for (int v = 0; v < cloth->garment->vertex_count; v++)
-		if (is_particle(cloth, v))
-			cloth->previous_m[v] = cloth->scratch->start_m[v];
+	struct cloth_scratch *s = cloth->scratch;
+	for (int slot = PADS; slot < s->slot_count; slot++) {
+		int v = s->slot_vertex[slot];
+		cloth->previous_m[v] = s->start_m[v];
+	}
 }
 
 long cloth_sweep(struct cloth *cloth)
 {
 	long units = cloth->garment->vertex_count;
+	cloth_take(cloth);
 	predict(cloth);
 	units += close_seams(cloth);
-	units += cloth_reach(cloth);
-	units += cloth_shape(cloth);
-	units += cloth_flatten(cloth);
-	pull_held(cloth);
+	units += cloth_levels(cloth);
+	units += keep_shape(cloth);
+	put_back(cloth);
 	units += cloth_self(cloth);
 	bound_steps(cloth);
 	if (cloth->settings.faces)

@@ -1,6 +1,6 @@
 /* The cloth solver: particles that are moved directly, without velocities (S18).
  *
- * One sweep is: momentum and gravity as displacements, seams, long-range limits, triangle shape
+ * One sweep is: momentum and gravity as displacements, seams, coarse levels, triangle shape
  * matching, flatness of edges, pins, a bound on each step, then contact with the body, which has
  * the last word. A sweep's work is fixed by the mesh; nothing iterates until converged.
  */
@@ -17,23 +17,12 @@ struct contact {
 	float distance_m;
 };
 
-/* Edge a-b with the two far corners c and d of its triangles: flat when sum k[i] x[v[i]] = 0. */
-struct flat {
-	int v[4];
-	float k[4];
-	float k_norm; /* sum of squares */
-};
-
-struct reach {
-	int a, b;
-	float length_m; /* never farther apart than on the flat piece */
-};
-
 struct cloth_settings {
 	float shape;       /* 0..1: share of a triangle's way back to its rest shape */
 	int shape_passes;  /* over all triangles in one sweep */
 	float flatness;    /* 0..1 */
-	float reach;       /* 0..1: long-range limits */
+	float shear;       /* 0..1: share of a triangle's shear that counts as a fault */
+	float reach;       /* 0..1: share of a taut coarse link's excess taken in one pass */
 	float momentum;    /* 0..1: share of the last step carried on */
 	float gravity_m;   /* displacement a sweep */
 	float friction;    /* 0..1: share of tangential motion lost in contact */
@@ -63,10 +52,9 @@ struct cloth {
 	bool piece_drawn[PIECES_MAX];     /* attract_m works on this piece */
 	int *particle;                    /* per vertex: itself, or weld[] once welded */
 	struct triangle *triangle;        /* through particle[] */
-	int flat_count;
+	int flat_count;                   /* edges of two triangles */
 	struct flat *flat;
-	int reach_count;
-	struct reach *reach;
+	int lanes; /* 1, 4 or 8: numbers that the processor works at once; same bits */
 	int sweep; /* counted for the time-sliced refresh */
 	struct cloth_settings settings;
 	struct cloth_scratch *scratch; /* owned by cloth_*.c */

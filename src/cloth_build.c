@@ -1,9 +1,6 @@
-/* The constraints of a cloth: rest shapes, flatness stencils, long-range limits, neighbours. */
+/* The constraints of a cloth: rest shapes, flatness stencils, neighbours. */
 #include "cloth_private.h"
 #include "cloth_self.h"
-
-static const float reach_least_m = 0.04f, reach_most_m = 0.22f;
-enum { REACH_TRIES = 4 * REACHES_PER_VERTEX };
 
 static void build_rest(struct cloth *cloth)
 {
@@ -16,21 +13,12 @@ static void build_rest(struct cloth *cloth)
 			  u2 = v2_sub(garment->rest_m[v[2]], a);
 		float det = v2_cross(u1, u2);
 		det = det > 1e-10f ? det : 1e-10f;
+		struct v2 d1 = {u2.y / det, -u1.y / det}, d2 = {-u2.x / det, u1.x / det};
 		s->rest[t] = (struct rest){
-			{u2.y / det, -u2.x / det, -u1.y / det, u1.x / det}, u1, u2};
-	}
-}
-
-static void scatter_order(struct cloth *cloth)
-{
-	struct scatter scatter = {20021027u};
-	int *order = cloth->scratch->order, count = cloth->garment->triangle_count;
-	for (int i = 0; i < count; i++)
-		order[i] = i;
-	for (int i = count - 1; i > 0; i--) {
-		int j = scatter_below(&scatter, i + 1), swap = order[i];
-		order[i] = order[j];
-		order[j] = swap;
+			{d1.x * d1.x + d2.x * d2.x, d1.x * d1.y + d2.x * d2.y,
+			 d1.y * d1.y + d2.y * d2.y},
+			{2.0f * d1.x * d2.x, d1.x * d2.y + d1.y * d2.x, 2.0f * d1.y * d2.y},
+		};
 	}
 }
 
@@ -96,11 +84,13 @@ static void add_flat(struct cloth *cloth, int at, int across)
 	struct flat *flat = &cloth->flat[cloth->flat_count++];
 	int corner[4] = {a, b, c, d};
 	float weight[4] = {bc + bd, ac + ad, -ac - bc, -ad - bd};
-	flat->k_norm = 1e-6f;
+	float squares = 1e-6f;
+	for (int i = 0; i < 4; i++)
+		squares += weight[i] * weight[i];
+	float norm = sqrtf(squares);
 	for (int i = 0; i < 4; i++) {
 		flat->v[i] = cloth->particle[corner[i]];
-		flat->k[i] = weight[i];
-		flat->k_norm += weight[i] * weight[i];
+		flat->k[i] = weight[i] / norm;
 	}
 }
 
@@ -145,95 +135,28 @@ static void build_rings(struct cloth *cloth)
 	}
 }
 
+static void build_stars(struct cloth *cloth)
+{
+	struct cloth_scratch *s = cloth->scratch;
+	int vertices = cloth->garment->vertex_count, triangles = cloth->garment->triangle_count;
+	memset(s->star_first, 0, (size_t)(vertices + 2) * sizeof *s->star_first);
+	for (int i = 0; i < 3 * triangles; i++)
+		s->star_first[cloth->triangle[i / 3].v[i % 3] + 2]++;
+	for (int v = 0; v < vertices; v++)
+		s->star_first[v + 2] += s->star_first[v + 1];
+	for (int i = 0; i < 3 * triangles; i++)
+		s->star[s->star_first[cloth->triangle[i / 3].v[i % 3] + 1]++] = i;
+}
+
 void cloth_build(struct cloth *cloth)
 {
 	build_rest(cloth);
-	scatter_order(cloth);
 	take_particles(cloth);
 	list_edges(cloth);
 	pair_edges(cloth);
 	build_rings(cloth);
+	build_stars(cloth);
+	cloth_order(cloth);
+	cloth_build_levels(cloth);
 	cloth_self_build(cloth);
-}
-
-/* ---- long-range limits ---- */
-
-static bool segments_cross(struct v2 a, struct v2 b, struct v2 c, struct v2 d)
-{
-	struct v2 ab = v2_sub(b, a), cd = v2_sub(d, c);
-	float s1 = v2_cross(ab, v2_sub(c, a)), s2 = v2_cross(ab, v2_sub(d, a));
-	float s3 = v2_cross(cd, v2_sub(a, c)), s4 = v2_cross(cd, v2_sub(b, c));
-	return ((s1 < 0.0f) != (s2 < 0.0f)) && ((s3 < 0.0f) != (s4 < 0.0f));
-}
-
-/* Edges of the flat pieces that have one triangle only, piece by piece. Uses the lists that pair
- * edges, so it runs while nothing is welded. */
-static void list_rims(struct cloth *cloth)
-{
-	struct cloth_scratch *s = cloth->scratch;
-	const struct triangle *triangle = cloth->triangle;
-	int count = 0;
-	for (int p = 0; p < PIECES_MAX; p++) {
-		s->rim_first[p] = count;
-		for (int v = cloth->garment->piece_first[p]; v < cloth->garment->piece_first[p + 1];
-		     v++)
-			for (int i = s->edge_first[v]; i < s->edge_first[v + 1]; i++) {
-				int e = s->edge_triangle[i], same = 0;
-				int high = int_max(triangle[e / 3].v[e % 3],
-						   triangle[e / 3].v[(e % 3 + 1) % 3]);
-				for (int j = s->edge_first[v]; j < s->edge_first[v + 1]; j++) {
-					int f = s->edge_triangle[j];
-					same += high == int_max(triangle[f / 3].v[f % 3],
-								triangle[f / 3].v[(f % 3 + 1) % 3]);
-				}
-				if (same == 1)
-					s->rim[count++] = e;
-			}
-	}
-	s->rim_first[PIECES_MAX] = count;
-}
-
-static bool leaves_piece(const struct cloth *cloth, int piece, struct v2 a, struct v2 b)
-{
-	const struct cloth_scratch *s = cloth->scratch;
-	for (int i = s->rim_first[piece]; i < s->rim_first[piece + 1]; i++) {
-		const int *v = cloth->garment->triangle[s->rim[i] / 3].v;
-		int k = s->rim[i] % 3;
-		if (segments_cross(a, b, cloth->garment->rest_m[v[k]],
-				   cloth->garment->rest_m[v[(k + 1) % 3]]))
-			return true;
-	}
-	return false;
-}
-
-/* Pairs that may not be farther apart in space than on the flat piece: a coarse level that carries
- * tension farther in one sweep than triangles can. */
-void cloth_build_reach(struct cloth *cloth)
-{
-	const struct garment *garment = cloth->garment;
-	struct scatter scatter = {19700101u};
-	cloth->reach_count = 0;
-	list_rims(cloth);
-	for (int v = 0; v < garment->vertex_count; v++) {
-		int piece = garment->piece[v], first = garment->piece_first[piece];
-		int size = garment->piece_first[piece + 1] - first;
-		struct v2 a = garment->rest_m[v];
-		for (int found = 0, tries = 0; tries < REACH_TRIES && found < REACHES_PER_VERTEX;
-		     tries++) {
-			int w = first + scatter_below(&scatter, size);
-			struct v2 b = garment->rest_m[w];
-			float length = v2_distance(a, b);
-			if (length < reach_least_m || length > reach_most_m ||
-			    leaves_piece(cloth, piece, a, b))
-				continue;
-			cloth->reach[cloth->reach_count++] = (struct reach){v, w, length};
-			found++;
-		}
-	}
-	for (int i = cloth->reach_count - 1; i > 0; i--) {
-		int j = scatter_below(&scatter, i + 1);
-		struct reach swap = cloth->reach[i];
-		cloth->reach[i] = cloth->reach[j];
-		cloth->reach[j] = swap;
-	}
 }

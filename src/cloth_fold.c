@@ -105,6 +105,7 @@ int cloth_unfold(struct cloth *cloth, int slice, int slices, long *units)
 	flag_ring(cloth);
 	for (int v = 0; v < cloth->garment->vertex_count; v++)
 		s->stiff[v] |= s->flipped[v] != 0;
+	s->stale = true;
 	for (int round = 0; round < SMOOTH_ROUNDS; round++)
 		smooth(cloth);
 	*units += SMOOTH_ROUNDS * (long)cloth->garment->vertex_count;

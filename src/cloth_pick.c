@@ -53,18 +53,19 @@ int cloth_ray(const struct cloth *cloth, struct v3 origin_m, struct v3 direction
 	return found;
 }
 
-/* By the eigenvalues of F^T F. */
+/* By the eigenvalues of F^T F, which are those of the rest metric times the edges' dot products. */
 float cloth_stretch(const struct cloth *cloth, int t)
 {
 	const int *v = cloth->triangle[t].v;
-	const struct rest *rest = &cloth->scratch->rest[t];
+	const float *k = cloth->scratch->rest[t].metric;
 	const struct v3 *x = cloth->position_m;
 	struct v3 e1 = v3_sub(x[v[1]], x[v[0]]), e2 = v3_sub(x[v[2]], x[v[0]]);
-	struct v3 f1 = v3_mad(v3_scale(e1, rest->inverse[0]), e2, rest->inverse[2]);
-	struct v3 f2 = v3_mad(v3_scale(e1, rest->inverse[1]), e2, rest->inverse[3]);
-	float a = v3_dot(f1, f1), b = v3_dot(f1, f2), c = v3_dot(f2, f2);
-	float root = sqrtf(0.25f * (a - c) * (a - c) + b * b);
-	return float_max(sqrtf(0.5f * (a + c) + root) - 1.0f, 0.0f);
+	float g11 = v3_dot(e1, e1), g12 = v3_dot(e1, e2), g22 = v3_dot(e2, e2);
+	float h11 = k[0] * g11 + k[1] * g12, h12 = k[0] * g12 + k[1] * g22;
+	float h21 = k[1] * g11 + k[2] * g12, h22 = k[1] * g12 + k[2] * g22;
+	float half = 0.5f * (h11 - h22);
+	float root = sqrtf(float_max(half * half + h12 * h21, 0.0f));
+	return float_max(sqrtf(0.5f * (h11 + h22) + root) - 1.0f, 0.0f);
 }
 
 float cloth_strain_mean(const struct cloth *cloth)

@@ -3,19 +3,89 @@
 #define CLOTH_PRIVATE_H
 
 #include "cloth.h"
+#include "cloth_kernel.h"
 
-enum { REACHES_PER_VERTEX = 6 };
+enum {
+	COLOURS = 64, /* of constraints; the last holds what found no other and is worked singly */
+	SINGLES = 64, /* constraints of the last colour that are still worked */
+	SHAPE_BATCHES_MAX = GARMENT_TRIANGLES_MAX / BATCH + COLOURS + SINGLES,
+	FLAT_BATCHES_MAX = GARMENT_EDGES_MAX / BATCH + COLOURS + SINGLES,
+	LEVELS = 2,
+	LEVEL_PASSES = 2,
+	LEVEL_NODES_MAX = GARMENT_VERTICES_MAX / 8,
+	LEVEL_LINKS_MAX = 8 * LEVEL_NODES_MAX,
+	HEAP_NEW = -1,
+	HEAP_DONE = -2,
+};
 
-/* Rest shape of a triangle: the flat corner vectors u1 = b - a, u2 = c - a, and the inverse of the
- * matrix with those columns. */
+/* Where a fold was turned back the cloth bends less, or the fold would come again. */
+#define FIRM_SHARE 0.3f
+
+/* Rest shape of a triangle; see struct shape_batch. */
 struct rest {
-	float inverse[4]; /* F = [e1 e2] [i0 i1; i2 i3] */
-	struct v2 u1, u2;
+	float metric[3], grain[3];
+};
+
+/* Edge a-b with the two far corners c and d of its triangles: flat when sum k[i] x[v[i]] = 0; sum k
+ * k = 1. */
+struct flat {
+	int v[4];
+	float k[4];
+};
+
+/* Two nodes, never farther apart than the way through the cloth. */
+struct link {
+	int a, b;
+	float length_m;
+};
+
+/* A coarse level. Its nodes are some of its members, which are the nodes of the level below or, of
+ * the lowest, the particles by rank. */
+struct level {
+	float spacing_m;
+	int member_count;
+	struct spread *spread; /* per member */
+	int node_count;
+	int *node; /* its member */
+	int link_count;
+	struct link *link;
+	int taut_count; /* links between placed nodes */
+	struct link *taut;
+	struct place *at, *move; /* per node, in a sweep */
 };
 
 struct cloth_scratch {
-	struct rest *rest;      /* per triangle */
-	int *order;             /* triangles, scattered: a sweep's direction must not show */
+	struct rest *rest; /* per triangle */
+
+	/* the order of work (cloth_order.c) */
+	int ranked_count; /* particles by neighbourhood */
+	int *ranked, *rank;
+	int *triangle_order, *flat_order; /* by colour */
+	int triangle_colour[COLOURS + 1], flat_colour[COLOURS + 1];
+	int *sorted;     /* while constraints are coloured */
+	uint64_t *taken; /* per particle: its colours */
+	uint8_t *colour;
+	bool stale;            /* the batches are not of this mesh */
+	uint8_t *taken_placed; /* cloth.placed when they were filled */
+	int slot_count;        /* placed particles as the kernels see them; PADS first */
+	int *slot;             /* per vertex, -1: not placed */
+	int *slot_vertex;
+	struct place *place; /* per slot */
+	struct shape_batch *shape;
+	int shape_count;
+	struct flat_batch *flat;
+	int flat_count;
+
+	/* coarse levels (cloth_level.c) */
+	struct level level[LEVELS];
+	struct spread *slot_spread;
+	int *star_first, *star; /* per particle: triangle * 3 + corner */
+	int *member, *member_at, *node_at;
+	uint8_t *covered;
+	float *way_m; /* per particle, from the node that marches */
+	int *way_of, way_now;
+	int *heap, *heap_at;
+
 	struct v3 *start_m;     /* where the sweep began */
 	int *edge_first;        /* per vertex + 1, while edges are paired */
 	int *edge_triangle;     /* triangle * 3 + corner */
@@ -50,15 +120,18 @@ static inline unsigned allowed_parts(const struct cloth *cloth, int v)
 	return cloth->settings.filter_parts ? cloth->piece_parts[cloth->garment->piece[v]] : 0;
 }
 
-/* Rebuilds what hangs on which vertices are one: triangles, flatness, neighbours (cloth_build.c).
- */
+/* Rebuilds what hangs on which vertices are one: triangles, flatness, neighbours, order, levels
+ * (cloth_build.c calls the others). */
 void cloth_build(struct cloth *cloth);
-void cloth_build_reach(struct cloth *cloth);
+void cloth_order(struct cloth *cloth);
+void cloth_build_levels(struct cloth *cloth);
+
+/* Fills the kernels' batches with what is placed, if that has changed. */
+void cloth_take(struct cloth *cloth);
+void cloth_take_levels(struct cloth *cloth);
 
 /* The parts of a sweep; each returns the units it spent. */
-long cloth_shape(struct cloth *cloth);   /* triangles back to their rest shape */
-long cloth_flatten(struct cloth *cloth); /* edges to 180 degrees */
-long cloth_reach(struct cloth *cloth);   /* long-range limits */
+long cloth_levels(struct cloth *cloth);  /* taut cloth pulls, coarse levels first */
 long cloth_contact(struct cloth *cloth); /* vertices out of the body, friction */
 long cloth_contact_faces(struct cloth *cloth, int slice, int slices); /* midpoints and centres */
 

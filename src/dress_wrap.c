@@ -37,7 +37,8 @@ static struct cloth_settings growing(void)
 {
 	struct cloth_settings set = cloth_settings_worn();
 	set.shape_passes = 2;
-	set.flatness = 0.1f;
+	set.flatness = 0.2f;
+	set.reach = 0.0f;
 	set.momentum = 0.0f;
 	set.gravity_m = 0.0f;
 	set.friction = 0.2f;
@@ -53,7 +54,7 @@ static struct cloth_settings growing(void)
 static struct cloth_settings closing(void)
 {
 	struct cloth_settings set = growing();
-	set.flatness = 0.03f;
+	set.flatness = 0.06f;
 	set.momentum = 0.8f;
 	set.seam_step_m = 0.003f;
 	set.attract_m = 0.0f;

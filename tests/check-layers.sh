@@ -17,7 +17,7 @@ for header in $(sed -n 's/^#include "\(.*\)\.h"/\1/p' drivers/*.[ch] | sort -u);
   esac
 done
 
-system='assert|float|limits|math|stdbool|stddef|stdint|string'
+system='arm_neon|assert|float|immintrin|limits|math|stdbool|stddef|stdint|string'
 if grep -nE '^#include <' src/*.[ch] | grep -vE "<($system)\.h>"; then
   complain "src must not include these system headers"
 fi

@@ -1,0 +1,70 @@
+/* The solver's inner loops, in three forms that give the same bits: one lane (plain C), four lanes
+ * (SSE2, NEON, or whatever the compiler makes of a 16-byte vector) and eight (AVX2).
+ *
+ * Constraints come in batches of eight whose particles are all different, so that the lanes of a
+ * batch may be worked out together; a form with fewer lanes takes a batch in parts. The arithmetic
+ * of a lane is the same in all: no contraction, no reciprocal estimates, square root and divide. */
+#ifndef CLOTH_KERNEL_H
+#define CLOTH_KERNEL_H
+
+#include "vec.h"
+
+enum {
+	BATCH = 8,        /* constraints in a batch */
+	PADS = 3 * BATCH, /* the first slots: particles of the lanes that fill a batch up */
+	KERNEL_LANES_MAX = 8,
+};
+
+/* A particle as the kernels see it: one aligned load. w stays 0. */
+struct place {
+	_Alignas(16) float x;
+	float y, z, w;
+};
+
+/* Batches name a particle by its offset in bytes: nothing is left to work out. */
+static inline uint32_t place_offset(int slot)
+{
+	return (uint32_t)slot * (uint32_t)sizeof(struct place);
+}
+
+/* Triangles: corners, and the rest shape as two symmetric matrices (11, 12, 22). D is the inverse
+ * of the flat edges [u1 u2] in the frame of the grain: metric = D D^T, grain = D [0 1; 1 0] D^T. */
+struct shape_batch {
+	uint32_t at[3][BATCH];
+	float metric[3][BATCH];
+	float grain[3][BATCH];
+};
+
+/* Edges with the far corners of their triangles: flat when sum k[i] x[i] = 0; sum k k = 1. */
+struct flat_batch {
+	_Alignas(16) float k[BATCH][4];
+	uint32_t at[BATCH][4];
+	float firm[BATCH]; /* least share, whatever the setting */
+};
+
+/* The nodes of a coarse level that move a particle, with their weights. */
+enum { SPREAD = 4 };
+struct spread {
+	uint32_t node[SPREAD]; /* offsets */
+	float weight[SPREAD];
+};
+
+struct kernel {
+	/* Every triangle goes `share` of its way to its rest shape; `shear` (0..1) of its shear
+	 * counts as a fault, the rest is left. */
+	void (*shape)(struct place *x, const struct shape_batch *batch, int count, float share,
+		      float shear, bool backwards);
+	/* Every edge goes `share` of its way to flat. */
+	void (*flatten)(struct place *x, const struct flat_batch *batch, int count, float share,
+			bool backwards);
+	/* Every particle moves by the weighted moves of its nodes. */
+	void (*spread)(struct place *x, const struct spread *spread, int count,
+		       const struct place *move);
+};
+
+/* The widest form that has at most `lanes` lanes and that this build knows. */
+const struct kernel *kernel_of(int lanes);
+
+extern const struct kernel kernel_1, kernel_4, kernel_8;
+
+#endif

@@ -1,0 +1,8 @@
+#define LANES 8
+#ifdef __x86_64__
+#include "cloth_kernel_lanes.h"
+
+const struct kernel kernel_8 = {shape, flatten, spread_moves};
+#else
+#include "cloth_kernel.h"
+#endif

@@ -1,0 +1,142 @@
+/* The kernels' bodies, written once; cloth_kernel_1.c, _4.c and _8.c compile them. */
+#include "cloth_lanes.h"
+
+/* A collapsed triangle has no plane; below this determinant of F^T F it counts as a needle, which
+ * keeps the closed form finite. */
+static const float det_least = 1e-6f;
+static const float shear_most = 0.9f; /* of f1 f2, for the same reason */
+
+LANES_INLINE lanes dot(const lanes a[3], const lanes b[3])
+{
+	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* M with which the rest shape, turned as the triangle is turned, is E M: E = [e1 e2] the edges, G
+ * their dot products.
+ *
+ * F = E D; its nearest rotation is F S^-1, S = sqrt(F^T F). In closed form, with d = sqrt(det F^T
+ * F) and t = sqrt(tr F^T F + 2 d): S = (F^T F + d I) / t, det S = d (Franca 1989). So S^-1 = ((tr
+ * F^T F
+ * + d) I - F^T F) / (t d), and since D [u1 u2] = I all of D but K = D D^T falls out of M = D S^-1
+ * [u1 u2]: with H = K G, tr F^T F = tr H, det F^T F = det H, and M = ((tr H + d) I - H) / (t d).
+ *
+ * Allowed shear turns the rest shape: D T^-1 for D, T = [1 q; q 1], 2 q the allowed part of f1 f2;
+ * to first order K - 2 q D [0 1; 1 0] D^T. */
+LANES_INLINE void shape_matrix(const lanes g[3], const lanes metric[3], const lanes grain[3],
+			       lanes allow, lanes m[4])
+{
+	lanes mixed = grain[1] * g[1];
+	lanes shear = allow * ((grain[0] * g[0] + mixed) + (mixed + grain[2] * g[2]));
+	shear = lanes_max(lanes_min(shear, lanes_all(shear_most)), lanes_all(-shear_most));
+	lanes k11 = metric[0] - shear * grain[0], k12 = metric[1] - shear * grain[1];
+	lanes k22 = metric[2] - shear * grain[2];
+	lanes h11 = k11 * g[0] + k12 * g[1], h12 = k11 * g[1] + k12 * g[2];
+	lanes h21 = k12 * g[0] + k22 * g[1], h22 = k12 * g[1] + k22 * g[2];
+	lanes d = lanes_sqrt(lanes_max(h11 * h22 - h12 * h21, lanes_all(det_least)));
+	lanes t = lanes_sqrt((h11 + d) + (h22 + d));
+	lanes scale = 1.0f / (t * d);
+	m[0] = (h22 + d) * scale;
+	m[1] = h12 * scale;
+	m[2] = h21 * scale;
+	m[3] = (h11 + d) * scale;
+}
+
+/* What corners 1 and 2 move by, with the centre at rest: corner 0 moves by minus their sum. (The
+ * matrix has its mixed terms with the other sign.) */
+LANES_INLINE void shape_moves(const lanes e1[3], const lanes e2[3], const lanes m[4], float share,
+			      lanes move_1[3], lanes move_2[3])
+{
+	lanes third = lanes_all(share * (1.0f / 3.0f));
+	lanes p11 = (m[0] - 1.0f) * third, p12 = m[1] * third;
+	lanes p21 = m[2] * third, p22 = (m[3] - 1.0f) * third;
+	lanes c11 = p11 + p11 + p12, c21 = p21 + p21 + p22;
+	lanes c12 = p12 + p12 + p11, c22 = p22 + p22 + p21;
+	UNROLL for (int k = 0; k < 3; k++)
+	{
+		move_1[k] = e1[k] * c11 - e2[k] * c21;
+		move_2[k] = e2[k] * c22 - e1[k] * c12;
+	}
+}
+
+LANES_INLINE void shape_part(struct place *x, const struct shape_batch *batch, int from,
+			     float share, float shear)
+{
+	row x0[ROWS], x1[ROWS], x2[ROWS], e1[ROWS], e2[ROWS];
+	rows_load(x0, x, batch->at[0] + from);
+	rows_load(x1, x, batch->at[1] + from);
+	rows_load(x2, x, batch->at[2] + from);
+	UNROLL for (int i = 0; i < ROWS; i++)
+	{
+		e1[i] = row_sub(x1[i], x0[i]);
+		e2[i] = row_sub(x2[i], x0[i]);
+	}
+	lanes a[3], b[3], g[3], metric[3], grain[3], m[4], move_1[3], move_2[3];
+	rows_to_lanes(e1, a);
+	rows_to_lanes(e2, b);
+	g[0] = dot(a, a);
+	g[1] = dot(a, b);
+	g[2] = dot(b, b);
+	UNROLL for (int k = 0; k < 3; k++)
+	{
+		metric[k] = lanes_load(batch->metric[k] + from);
+		grain[k] = lanes_load(batch->grain[k] + from);
+	}
+	shape_matrix(g, metric, grain, lanes_all(0.5f * (1.0f - shear)), m);
+	shape_moves(a, b, m, share, move_1, move_2);
+	lanes_to_rows(move_1, e1);
+	lanes_to_rows(move_2, e2);
+	UNROLL for (int i = 0; i < ROWS; i++)
+	{
+		x0[i] = row_sub(x0[i], row_add(e1[i], e2[i]));
+		x1[i] = row_add(x1[i], e1[i]);
+		x2[i] = row_add(x2[i], e2[i]);
+	}
+	rows_store(x0, x, batch->at[0] + from);
+	rows_store(x1, x, batch->at[1] + from);
+	rows_store(x2, x, batch->at[2] + from);
+}
+
+LANES_TARGET static void shape(struct place *x, const struct shape_batch *batch, int count,
+			       float share, float shear, bool backwards)
+{
+	for (int i = 0; i < count; i++) {
+		const struct shape_batch *now = &batch[backwards ? count - 1 - i : i];
+		for (int from = 0; from < BATCH; from += LANES)
+			shape_part(x, now, from, share, shear);
+	}
+}
+
+LANES_INLINE four mix(const four p[4], const float k[4])
+{
+	return four_add(four_add(four_scale(p[0], k[0]), four_scale(p[1], k[1])),
+			four_add(four_scale(p[2], k[2]), four_scale(p[3], k[3])));
+}
+
+/* Sums over whole particles: they stay as they lie in memory. */
+LANES_TARGET static void flatten(struct place *x, const struct flat_batch *batch, int count,
+				 float share, bool backwards)
+{
+	for (int i = 0; i < count; i++) {
+		const struct flat_batch *now = &batch[backwards ? count - 1 - i : i];
+		for (int j = 0; j < BATCH; j++) {
+			const uint32_t *at = now->at[j];
+			const float *k = now->k[j], firm = now->firm[j];
+			four p[4] = {place_load(x, at[0]), place_load(x, at[1]),
+				     place_load(x, at[2]), place_load(x, at[3])};
+			four bend = four_scale(mix(p, k), firm > share ? firm : share);
+			UNROLL for (int c = 0; c < 4; c++)
+				place_store(x, at[c], four_sub(p[c], four_scale(bend, k[c])));
+		}
+	}
+}
+
+LANES_TARGET static void spread_moves(struct place *x, const struct spread *spread, int count,
+				      const struct place *move)
+{
+	for (int i = 0; i < count; i++) {
+		const uint32_t *n = spread[i].node;
+		four p[4] = {place_load(move, n[0]), place_load(move, n[1]), place_load(move, n[2]),
+			     place_load(move, n[3])};
+		place_store(&x[i], 0, four_add(place_load(&x[i], 0), mix(p, spread[i].weight)));
+	}
+}

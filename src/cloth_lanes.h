@@ -1,0 +1,273 @@
+/* A thin layer over the compiler's vectors. LANES (1, 4 or 8) is set by the file that includes it.
+ *
+ * `lanes` holds one number of each of LANES constraints. `rows` holds LANES particles as they lie
+ * in memory; turning rows into lanes and back is a transposition. */
+#ifndef CLOTH_LANES_H
+#define CLOTH_LANES_H
+
+#include "cloth_kernel.h"
+
+#if LANES == 8
+#define LANES_TARGET __attribute__((target("avx2")))
+#else
+#define LANES_TARGET
+#endif
+/* Loops of a known few rounds, so that their arrays live in registers. */
+#ifdef __clang__
+#define UNROLL _Pragma("unroll")
+#else
+#define UNROLL _Pragma("GCC unroll 8")
+#endif
+#define LANES_INLINE static inline __attribute__((always_inline)) LANES_TARGET
+
+#if LANES > 1 && defined __SSE2__
+#include <immintrin.h>
+#elif LANES > 1 && defined __aarch64__
+#include <arm_neon.h>
+#endif
+
+#if LANES == 1
+
+typedef float lanes;
+typedef struct place row, four;
+enum { ROWS = 1 };
+
+LANES_INLINE lanes lanes_all(float value)
+{
+	return value;
+}
+
+LANES_INLINE lanes lanes_load(const float *from)
+{
+	return *from;
+}
+
+LANES_INLINE lanes lanes_sqrt(lanes a)
+{
+	return sqrtf(a);
+}
+
+LANES_INLINE lanes lanes_max(lanes a, lanes b)
+{
+	return a > b ? a : b;
+}
+
+LANES_INLINE lanes lanes_min(lanes a, lanes b)
+{
+	return a < b ? a : b;
+}
+
+LANES_INLINE row row_add(row a, row b)
+{
+	return (row){a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w};
+}
+
+LANES_INLINE row row_sub(row a, row b)
+{
+	return (row){a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w};
+}
+
+LANES_INLINE four four_add(four a, four b)
+{
+	return row_add(a, b);
+}
+
+LANES_INLINE four four_sub(four a, four b)
+{
+	return row_sub(a, b);
+}
+
+LANES_INLINE four four_scale(four a, float s)
+{
+	return (row){a.x * s, a.y * s, a.z * s, a.w * s};
+}
+
+LANES_INLINE four place_load(const struct place *x, uint32_t at)
+{
+	return *(const struct place *)((const char *)x + at);
+}
+
+LANES_INLINE void place_store(struct place *x, uint32_t at, four a)
+{
+	*(struct place *)((char *)x + at) = a;
+}
+
+LANES_INLINE void rows_load(row rows[ROWS], const struct place *x, const uint32_t *at)
+{
+	rows[0] = place_load(x, at[0]);
+}
+
+LANES_INLINE void rows_store(const row rows[ROWS], struct place *x, const uint32_t *at)
+{
+	place_store(x, at[0], rows[0]);
+}
+
+LANES_INLINE void rows_to_lanes(const row rows[ROWS], lanes axis[3])
+{
+	axis[0] = rows[0].x;
+	axis[1] = rows[0].y;
+	axis[2] = rows[0].z;
+}
+
+LANES_INLINE void lanes_to_rows(const lanes axis[3], row rows[ROWS])
+{
+	rows[0] = (row){axis[0], axis[1], axis[2], 0.0f};
+}
+
+#else
+
+typedef float four __attribute__((vector_size(16), may_alias));
+typedef float lanes __attribute__((vector_size(4 * LANES), may_alias));
+typedef lanes row;
+enum { ROWS = 4 };
+
+LANES_INLINE lanes lanes_all(float value)
+{
+	return value - (lanes){0.0f};
+}
+
+LANES_INLINE lanes lanes_load(const float *from)
+{
+	return *(const lanes *)from;
+}
+
+LANES_INLINE lanes lanes_sqrt(lanes a)
+{
+#if LANES == 8
+	return (lanes)_mm256_sqrt_ps((__m256)a);
+#elif defined __SSE2__
+	return (lanes)_mm_sqrt_ps((__m128)a);
+#elif defined __aarch64__
+	return (lanes)vsqrtq_f32((float32x4_t)a);
+#else
+	for (int i = 0; i < LANES; i++)
+		a[i] = sqrtf(a[i]);
+	return a;
+#endif
+}
+
+LANES_INLINE lanes lanes_max(lanes a, lanes b)
+{
+#if LANES == 8
+	return (lanes)_mm256_max_ps((__m256)a, (__m256)b);
+#elif defined __SSE2__
+	return (lanes)_mm_max_ps((__m128)a, (__m128)b);
+#else
+	for (int i = 0; i < LANES; i++)
+		a[i] = a[i] > b[i] ? a[i] : b[i];
+	return a;
+#endif
+}
+
+LANES_INLINE lanes lanes_min(lanes a, lanes b)
+{
+#if LANES == 8
+	return (lanes)_mm256_min_ps((__m256)a, (__m256)b);
+#elif defined __SSE2__
+	return (lanes)_mm_min_ps((__m128)a, (__m128)b);
+#else
+	for (int i = 0; i < LANES; i++)
+		a[i] = a[i] < b[i] ? a[i] : b[i];
+	return a;
+#endif
+}
+
+LANES_INLINE row row_add(row a, row b)
+{
+	return a + b;
+}
+
+LANES_INLINE row row_sub(row a, row b)
+{
+	return a - b;
+}
+
+LANES_INLINE four four_add(four a, four b)
+{
+	return a + b;
+}
+
+LANES_INLINE four four_sub(four a, four b)
+{
+	return a - b;
+}
+
+LANES_INLINE four four_scale(four a, float s)
+{
+	return a * s;
+}
+
+LANES_INLINE four place_load(const struct place *x, uint32_t at)
+{
+	return *(const four *)((const char *)x + at);
+}
+
+LANES_INLINE void place_store(struct place *x, uint32_t at, four a)
+{
+	*(four *)((char *)x + at) = a;
+}
+
+#if LANES == 4
+
+LANES_INLINE void rows_load(row rows[ROWS], const struct place *x, const uint32_t *at)
+{
+	UNROLL for (int i = 0; i < ROWS; i++) rows[i] = place_load(x, at[i]);
+}
+
+LANES_INLINE void rows_store(const row rows[ROWS], struct place *x, const uint32_t *at)
+{
+	UNROLL for (int i = 0; i < ROWS; i++) place_store(x, at[i], rows[i]);
+}
+
+#define LOW_PAIRS(a, b) __builtin_shufflevector(a, b, 0, 4, 1, 5)
+#define HIGH_PAIRS(a, b) __builtin_shufflevector(a, b, 2, 6, 3, 7)
+#define LOW_HALVES(a, b) __builtin_shufflevector(a, b, 0, 1, 4, 5)
+#define HIGH_HALVES(a, b) __builtin_shufflevector(a, b, 2, 3, 6, 7)
+
+#else /* two fours side by side: lane i beside lane i + 4 */
+
+LANES_INLINE void rows_load(row rows[ROWS], const struct place *x, const uint32_t *at)
+{
+	UNROLL for (int i = 0; i < ROWS; i++) rows[i] = __builtin_shufflevector(
+		place_load(x, at[i]), place_load(x, at[i + 4]), 0, 1, 2, 3, 4, 5, 6, 7);
+}
+
+LANES_INLINE void rows_store(const row rows[ROWS], struct place *x, const uint32_t *at)
+{
+	UNROLL for (int i = 0; i < ROWS; i++)
+	{
+		place_store(x, at[i], (four)_mm256_castps256_ps128((__m256)rows[i]));
+		place_store(x, at[i + 4], (four)_mm256_extractf128_ps((__m256)rows[i], 1));
+	}
+}
+
+#define LOW_PAIRS(a, b) __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13)
+#define HIGH_PAIRS(a, b) __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15)
+#define LOW_HALVES(a, b) __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13)
+#define HIGH_HALVES(a, b) __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15)
+
+#endif
+
+LANES_INLINE void rows_to_lanes(const row rows[ROWS], lanes axis[3])
+{
+	lanes xy_01 = LOW_PAIRS(rows[0], rows[1]), xy_23 = LOW_PAIRS(rows[2], rows[3]);
+	lanes z_01 = HIGH_PAIRS(rows[0], rows[1]), z_23 = HIGH_PAIRS(rows[2], rows[3]);
+	axis[0] = LOW_HALVES(xy_01, xy_23);
+	axis[1] = HIGH_HALVES(xy_01, xy_23);
+	axis[2] = LOW_HALVES(z_01, z_23);
+}
+
+LANES_INLINE void lanes_to_rows(const lanes axis[3], row rows[ROWS])
+{
+	lanes zero = lanes_all(0.0f);
+	lanes xy_01 = LOW_PAIRS(axis[0], axis[1]), xy_23 = HIGH_PAIRS(axis[0], axis[1]);
+	lanes z_01 = LOW_PAIRS(axis[2], zero), z_23 = HIGH_PAIRS(axis[2], zero);
+	rows[0] = LOW_HALVES(xy_01, z_01);
+	rows[1] = HIGH_HALVES(xy_01, z_01);
+	rows[2] = LOW_HALVES(xy_23, z_23);
+	rows[3] = HIGH_HALVES(xy_23, z_23);
+}
+
+#endif
+
+#endif
