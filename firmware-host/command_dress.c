@@ -8,6 +8,7 @@
 #include "picture.h"
 #include "report.h"
 #include "snapshot.h"
+#include "processor.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -53,6 +54,7 @@ static bool dresser_open(struct dresser *dresser)
 	}
 	arena_init(&arena, dresser->memory, KIOSK_MEMORY_BYTES);
 	session_init(dresser->session, &arena);
+	dresser->session->cloth.lanes = processor_lanes();
 	return true;
 }
 

@@ -1,4 +1,5 @@
 #include "kiosk.h"
+#include "processor.h"
 
 enum { JOURNAL_FRAME_MAX = (FRAME_EDITS_MAX + 4) * JOURNAL_LINE_MAX };
 
@@ -9,6 +10,7 @@ void kiosk_init(struct kiosk *kiosk, void *memory, int width_px, int height_px)
 	kiosk->journal = ARENA_ARRAY(&kiosk->arena, char, JOURNAL_FRAME_MAX);
 	pen_init(&kiosk->pen, width_px, height_px);
 	session_init(&kiosk->session, &kiosk->arena);
+	kiosk->session.cloth.lanes = processor_lanes();
 	ui_init(&kiosk->ui, width_px, height_px);
 	arena_seal(&kiosk->arena);
 }
