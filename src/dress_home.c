@@ -17,7 +17,7 @@ static void vote(const struct wrap *wrap, int votes[PIECES_MAX][PART_COUNT])
 	memset(votes, 0, PIECES_MAX * sizeof *votes);
 	for (int m = 0; m < MARKS_MAX; m++) {
 		const struct cloth_mark *mark = &marks->cloth[m];
-		const struct body_mark *on = mark->used ? wrap_partner(marks, mark->number) : NULL;
+		const struct body_mark *on = mark->used ? wrap_partner(wrap, mark->number) : NULL;
 		for (int i = 0; on && i < on->point_count; i++) {
 			struct body_hit hit;
 			body_nearest(wrap->cloth->body, on->point_m[i], 0, &hit);
@@ -101,15 +101,7 @@ void wrap_find_homes(struct wrap *wrap)
 
 /* ---- bones as axes ---- */
 
-/* Where a point lies beside a limb's bones. */
-struct beside {
-	struct v3 axis_m; /* nearest point of the bones, which go on straight beyond both ends */
-	struct v3 along;  /* their direction there */
-	float reach_m;    /* from the first bone's start to axis_m, along the bones */
-};
-
-/* False: the part has no bones. */
-static bool look_beside(const struct body *body, int part, struct v3 p_m, struct beside *beside)
+bool wrap_beside(const struct body *body, int part, struct v3 p_m, struct beside *beside)
 {
 	float best = 1e9f, before_m = 0.0f;
 	int first = -1, last = -1;
@@ -169,7 +161,7 @@ void wrap_measure_limbs(struct wrap *wrap)
 	for (int v = 0; v < body->vertex_count; v++) {
 		struct beside beside;
 		int part = body->part[body->star[body->star_first[v]]];
-		if (part < PART_ARM_LEFT || !look_beside(body, part, body->position_m[v], &beside))
+		if (part < PART_ARM_LEFT || !wrap_beside(body, part, body->position_m[v], &beside))
 			continue;
 		float *wide = &wide_m[part][bin_of(beside.reach_m)];
 		*wide = float_max(*wide, v3_distance(body->position_m[v], beside.axis_m));
@@ -182,7 +174,7 @@ float wrap_room(const struct wrap *wrap, int piece, struct v3 p_m)
 {
 	struct beside at;
 	int home = wrap->scratch->home[piece];
-	if (home < PART_ARM_LEFT || !look_beside(wrap->cloth->body, home, p_m, &at))
+	if (home < PART_ARM_LEFT || !wrap_beside(wrap->cloth->body, home, p_m, &at))
 		return 1e9f;
 	return wrap->scratch->wrist_m[home] - at.reach_m;
 }
@@ -191,7 +183,7 @@ struct v3 wrap_above_wrist(const struct wrap *wrap, int piece, struct v3 p_m)
 {
 	struct beside at;
 	int home = wrap->scratch->home[piece];
-	if (home < PART_ARM_LEFT || !look_beside(wrap->cloth->body, home, p_m, &at))
+	if (home < PART_ARM_LEFT || !wrap_beside(wrap->cloth->body, home, p_m, &at))
 		return p_m;
 	return v3_mad(p_m, at.along, float_min(wrap->scratch->wrist_m[home] - at.reach_m, 0.0f));
 }
@@ -199,7 +191,7 @@ struct v3 wrap_above_wrist(const struct wrap *wrap, int piece, struct v3 p_m)
 bool wrap_outward(const struct body *body, const struct body_hit *hit, struct v3 *out)
 {
 	struct beside at;
-	if (!look_beside(body, body->part[hit->triangle], hit->point_m, &at))
+	if (!wrap_beside(body, body->part[hit->triangle], hit->point_m, &at))
 		return false;
 	*out = v3_normalize(v3_sub(hit->point_m, at.axis_m));
 	return true;
@@ -209,7 +201,7 @@ struct v3 wrap_curl(const struct wrap *wrap, int piece, struct v3 from_m, struct
 {
 	struct beside at;
 	int home = wrap->scratch->home[piece];
-	if (home < PART_ARM_LEFT || !look_beside(wrap->cloth->body, home, from_m, &at))
+	if (home < PART_ARM_LEFT || !wrap_beside(wrap->cloth->body, home, from_m, &at))
 		return to_m;
 	struct v3 arm = v3_sub(from_m, at.axis_m);
 	arm = v3_mad(arm, at.along, -v3_dot(arm, at.along));

@@ -5,7 +5,10 @@
 #include "cloth_private.h"
 #include "dress.h"
 
-enum { PART_NONE = -1 }; /* a home nowhere on the body */
+enum {
+	PART_NONE = -1,     /* a home nowhere on the body */
+	MARK_NUMBERS = 100, /* marks are numbered from 1 to 99 */
+};
 
 struct wrap_scratch {
 	int8_t home[PIECES_MAX];   /* enum body_part that the piece belongs to, or PART_NONE */
@@ -16,8 +19,10 @@ struct wrap_scratch {
 	int *edge_first;    /* per vertex + 1: triangles on edges whose lower vertex it is */
 	int *edge_triangle; /* triangle * 3 + corner */
 	float along_m[MARK_POINTS_MAX];
-	bool disagree; /* the marks were found to pull seams apart */
-	int rounds;    /* folds turned back so far */
+	int partner[MARK_NUMBERS]; /* per cloth mark's number: the body mark's; 0: let go */
+	bool mended;               /* marks were let go or swapped */
+	bool disagree;             /* the marks were found to pull seams apart */
+	int rounds;                /* folds turned back so far */
 	struct v3 mark_point_m[MARK_POINTS_MAX], mark_normal[MARK_POINTS_MAX];
 	struct v3 cloth_line_m[MARK_POINTS_MAX]; /* the cloth's line, flat: z = 0 */
 	struct v3 drawn[MARK_POINTS_MAX];
@@ -26,11 +31,28 @@ struct wrap_scratch {
 /* Puts the triangles under the marks on the body (dress_seed.c). Returns the vertices seeded. */
 int wrap_seed(struct wrap *wrap);
 
-/* The body's mark of that number; NULL: none. */
-const struct body_mark *wrap_partner(const struct marks *marks, int number);
+/* The body's mark that belongs to the cloth's mark of that number; NULL: none. */
+const struct body_mark *wrap_partner(const struct wrap *wrap, int number);
+
+/* When pieces stand apart from all that they are sewn to: their marks change places or are let go
+ * (dress_mend.c). True: the wrap has to begin anew. */
+bool wrap_mend_marks(struct wrap *wrap);
 
 /* Fills scratch->home and the cloth's piece_parts (dress_home.c). */
 void wrap_find_homes(struct wrap *wrap);
+
+/* Where a point lies beside a limb's bones. */
+struct beside {
+	struct v3 axis_m; /* nearest point of the bones, which go on straight beyond both ends */
+	struct v3 along;  /* their direction there */
+	float reach_m;    /* from the first bone's start to axis_m, along the bones */
+};
+
+/* False: the part has no bones. */
+bool wrap_beside(const struct body *body, int part, struct v3 p_m, struct beside *beside);
+
+/* Says which limb is not in its tube, and whether the head is covered (dress_check.c). */
+void wrap_check(struct wrap *wrap);
 
 /* Finds how far along each limb cloth may go: to wrist or ankle. */
 void wrap_measure_limbs(struct wrap *wrap);

@@ -45,11 +45,12 @@ void wrap_diagnose(struct wrap *wrap, const char *kind, int mark_1, int mark_2, 
 	}
 }
 
-const struct body_mark *wrap_partner(const struct marks *marks, int number)
+const struct body_mark *wrap_partner(const struct wrap *wrap, int number)
 {
+	int partner = wrap->scratch->partner[number];
 	for (int m = 0; m < MARKS_MAX; m++)
-		if (marks->body[m].used && marks->body[m].number == number)
-			return &marks->body[m];
+		if (wrap->marks->body[m].used && wrap->marks->body[m].number == partner)
+			return &wrap->marks->body[m];
 	return NULL;
 }
 
@@ -208,7 +209,7 @@ static int seed_mark(struct wrap *wrap, const struct cloth_mark *mark, const str
 	float width = wide * garment->edge_m;
 	float share = limb_share(wrap, mark, on);
 	int seeds = 0;
-	if (wide == seed_width &&
+	if (wide == seed_width && !wrap->scratch->mended &&
 	    float_abs(body_m - cloth_m) > lengths_differ * float_max(body_m, cloth_m))
 		wrap_diagnose(
 			wrap, "lengths-differ", mark->number, 0,
@@ -247,7 +248,7 @@ static void diagnose_lonely(struct wrap *wrap)
 	const struct marks *marks = wrap->marks;
 	for (int m = 0; m < MARKS_MAX; m++) {
 		int cloth = marks->cloth[m].number, body = marks->body[m].number;
-		if (marks->cloth[m].used && !wrap_partner(marks, cloth))
+		if (marks->cloth[m].used && !wrap_partner(wrap, cloth))
 			wrap_diagnose(wrap, "no-partner", cloth, 0,
 				      "Mark %1 on the cloth has no partner on the body.");
 		if (marks->body[m].used && !on_cloth(marks, body))
@@ -277,8 +278,8 @@ static void diagnose_directions(struct wrap *wrap)
 			const struct cloth_mark *a = &marks->cloth[i], *b = &marks->cloth[j];
 			if (!a->used || !b->used || a->piece != b->piece)
 				continue;
-			const struct body_mark *on_a = wrap_partner(marks, a->number);
-			const struct body_mark *on_b = wrap_partner(marks, b->number);
+			const struct body_mark *on_a = wrap_partner(wrap, a->number);
+			const struct body_mark *on_b = wrap_partner(wrap, b->number);
 			if (!on_a || !on_b)
 				continue;
 			float cloth = v2_dot(cloth_chord(a), cloth_chord(b));
@@ -315,8 +316,7 @@ static void choose_drawn(struct wrap *wrap)
 		cloth->piece_drawn[p] = true;
 	for (int m = 0; m < MARKS_MAX; m++) {
 		const struct cloth_mark *mark = &wrap->marks->cloth[m];
-		const struct body_mark *on = mark->used ? wrap_partner(wrap->marks, mark->number)
-							: NULL;
+		const struct body_mark *on = mark->used ? wrap_partner(wrap, mark->number) : NULL;
 		if (on && mark_part(cloth->body, on) == PART_TRUNK)
 			cloth->piece_drawn[mark->piece] = false;
 	}
@@ -331,7 +331,7 @@ int wrap_seed(struct wrap *wrap)
 	wrap_measure_limbs(wrap);
 	for (int m = 0; m < MARKS_MAX; m++) {
 		const struct cloth_mark *mark = &marks->cloth[m];
-		const struct body_mark *on = mark->used ? wrap_partner(marks, mark->number) : NULL;
+		const struct body_mark *on = mark->used ? wrap_partner(wrap, mark->number) : NULL;
 		if (!on || mark->point_count < 2 || on->point_count < 2)
 			continue;
 		seeds += seed_mark(wrap, mark, on, seed_width);
@@ -339,8 +339,10 @@ int wrap_seed(struct wrap *wrap)
 			seeds += seed_mark(wrap, mark, on, rim_width);
 	}
 	choose_drawn(wrap);
-	diagnose_lonely(wrap);
-	diagnose_directions(wrap);
+	if (!wrap->scratch->mended) {
+		diagnose_lonely(wrap);
+		diagnose_directions(wrap);
+	}
 	return seeds;
 }
 
@@ -349,7 +351,7 @@ int wrap_piece_mark(const struct wrap *wrap, int piece)
 	const struct marks *marks = wrap->marks;
 	for (int m = 0; m < MARKS_MAX; m++)
 		if (marks->cloth[m].used && marks->cloth[m].piece == piece &&
-		    wrap_partner(marks, marks->cloth[m].number))
+		    wrap_partner(wrap, marks->cloth[m].number))
 			return marks->cloth[m].number;
 	return 0;
 }

@@ -89,24 +89,34 @@ static void enter(struct wrap *wrap, enum wrap_stage stage, struct cloth_setting
 	wrap->cloth->settings = settings;
 }
 
+static bool lay_marks(struct wrap *wrap)
+{
+	wrap->scratch->rounds = 0;
+	wrap->scratch->disagree = false;
+	wrap->cloth->settings = growing();
+	if (wrap_seed(wrap) == 0)
+		return false;
+	wrap_grow_init(wrap);
+	enter(wrap, WRAP_GROW, growing());
+	return true;
+}
+
 bool wrap_start(struct wrap *wrap, struct cloth *cloth, const struct marks *marks)
 {
 	wrap->cloth = cloth;
 	wrap->marks = marks;
 	wrap->frames = 0;
 	wrap->mark_error_rms_m = wrap->mark_error_max_m = 0.0f;
-	wrap->scratch->rounds = 0;
-	wrap->scratch->disagree = false;
 	memset(&wrap->diagnoses, 0, sizeof wrap->diagnoses);
-	cloth->settings = growing();
-	if (wrap_seed(wrap) == 0) {
+	wrap->scratch->mended = false;
+	for (int number = 0; number < MARK_NUMBERS; number++)
+		wrap->scratch->partner[number] = number;
+	if (!lay_marks(wrap)) {
 		wrap_diagnose(wrap, "no-marks", 0, 0,
 			      "No mark on the cloth has a partner on the body.");
 		wrap->stage = WRAP_IDLE;
 		return false;
 	}
-	wrap_grow_init(wrap);
-	enter(wrap, WRAP_GROW, growing());
 	return true;
 }
 
@@ -187,6 +197,11 @@ static void end_close(struct wrap *wrap)
 	int wide, count = count_pairs(cloth, -1, gap_agrees_m, &wide);
 	if (!wrap->scratch->disagree)
 		diagnose_gaps(wrap, gap_held_m);
+	if (wrap_mend_marks(wrap)) {
+		cloth_reset(cloth, cloth->garment, cloth->body);
+		lay_marks(wrap);
+		return;
+	}
 	if (3 * wide <= count) {
 		cloth_weld(cloth);
 		enter(wrap, WRAP_WELD, closing());
@@ -258,6 +273,7 @@ static long settle(struct wrap *wrap)
 		return cloth_sweep(cloth);
 	if (after < PUSH_ROUNDS && cloth_push_out(cloth, 0, 1, &units) > 0)
 		return units + cloth_sweep(cloth);
+	wrap_check(wrap);
 	wrap->stage = WRAP_DONE;
 	cloth->worn = true;
 	return units + 1;
