@@ -16,6 +16,7 @@ enum {
 
 #define POINT_STEP_MM 15.0f
 #define STOP_MAX 9.0f
+#define COORDINATE_MM 10000.0f
 #define RIM_MM 1.0f /* the other rim lies farther */
 
 /* ---- places ---- */
@@ -103,8 +104,23 @@ static bool take(struct reader *reader, const char *word)
 
 /* ---- places on a piece ---- */
 
+/* @X,Y: in mm, y up */
+static bool find_coordinates(struct reader *reader, const char *word, size_t size,
+			     struct v2 *point_mm)
+{
+	const char *at = word + 1, *end = word + size;
+	bool read = number_read(&at, end, &point_mm->x) && at < end && *at++ == ',' &&
+		    number_read(&at, end, &point_mm->y) && at == end;
+	if (read && float_abs(point_mm->x) <= COORDINATE_MM &&
+	    float_abs(point_mm->y) <= COORDINATE_MM)
+		return true;
+	return fail(reader, "\"%.60s\" is not @X,Y within 10 m", word);
+}
+
 static bool find_name(struct reader *reader, const char *name, size_t size, struct v2 *point_mm)
 {
+	if (size > 0 && name[0] == '@')
+		return find_coordinates(reader, name, size, point_mm);
 	for (int i = 0; i < reader->places->count; i++) {
 		const struct garment_place *place = &reader->places->place[i];
 		if (place->piece != reader->piece_index || strlen(place->name) != size ||

@@ -4,6 +4,7 @@
 
 #include "format_garment.h"
 #include "format_marks.h"
+#include "format_marks_guess.h"
 #include "body_landmark.h"
 #include "journal.h"
 #include "options.h"
@@ -12,7 +13,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static const char usage[] = "usage: kitsuke import PATTERN [--marks FILE] --journal FILE\n";
+static const char usage[] = "usage: kitsuke import PATTERN [--marks FILE|guess] --journal FILE\n";
 
 static void put_edit(FILE *out, const struct edit *edit, char line[JOURNAL_LINE_MAX])
 {
@@ -168,7 +169,24 @@ static bool find_landmarks(struct design_marks *marks, char wrong[200])
 	return true;
 }
 
-/* The marks of a file; none when there is no file. `garment` is the pattern file's text. */
+/* Marks for a garment without any, printed, so that they can be kept and made better. */
+static char *guess_marks(const struct pattern *pattern, const char *garment, size_t garment_size,
+			 size_t *size, char fault[FAULT_BYTES])
+{
+	char *text = malloc(GUESS_BYTES_MAX);
+	*size = text ? (size_t)format_marks_guess(text, pattern, garment, garment_size) : 0;
+	if (*size > 0) {
+		fputs(text, stdout);
+		return text;
+	}
+	snprintf(fault, FAULT_BYTES, "%s",
+		 text ? "nothing says where any piece is worn; write a file of marks"
+		      : "not enough memory for the marks");
+	free(text);
+	return NULL;
+}
+
+/* The marks of a file, or guessed; none without a path. `garment` is the pattern file's text. */
 static bool read_marks(struct design_marks *marks, const char *path, const struct pattern *pattern,
 		       const char *garment, size_t garment_size, char fault[FAULT_BYTES])
 {
@@ -178,7 +196,9 @@ static bool read_marks(struct design_marks *marks, const char *path, const struc
 	memset(marks, 0, sizeof *marks);
 	if (!path)
 		return true;
-	char *text = store_read(path, &size, fault);
+	char *text = strcmp(path, "guess") == 0
+			     ? guess_marks(pattern, garment, garment_size, &size, fault)
+			     : store_read(path, &size, fault);
 	if (!text)
 		return false;
 	format_places_read(&places, garment, garment_size);

@@ -9,7 +9,7 @@ seeds() {
   fuzz_garment*) echo ../shared/data/patterns/seams ../shared/data/bad/json ;;
   fuzz_tape) echo tests/tapes ;;
   fuzz_journal) echo tests/journals ;;
-  fuzz_marks) echo tests/marks ;;
+  fuzz_marks) echo tests/marks ../shared/data/patterns/seams ;;
   esac
 }
 

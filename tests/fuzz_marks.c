@@ -1,7 +1,25 @@
-/* Any text as marks of a garment with a few places; any bytes as a garment's places. */
+/* Any text as marks of a garment with a few places; any bytes as a garment's places, and, where
+ * they are a garment, marks guessed for it. */
+#include "format_garment.h"
 #include "format_marks.h"
+#include "format_marks_guess.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static void guess(const char *text, size_t size)
+{
+	static struct pattern pattern;
+	static struct garment_places places;
+	static struct design_marks marks;
+	static char out[GUESS_BYTES_MAX];
+	char fault[200];
+	if (!format_garment_read(&pattern, text, size, fault))
+		return;
+	int length = format_marks_guess(out, &pattern, text, size);
+	MUST(length >= 0 && length < GUESS_BYTES_MAX && out[length] == '\0');
+	if (length > 0)
+		format_marks_read(&marks, &pattern, &places, out, (size_t)length, fault);
+}
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
@@ -23,6 +41,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 		}
 	}
 	format_places_read(&any, (const char *)data, size);
+	guess((const char *)data, size);
 	MUST(any.count >= 0 && any.count <= PLACES_MAX);
 	if (!format_marks_read(&marks, &pattern, &places, (const char *)data, size, fault)) {
 		MUST(!strncmp(fault, "line ", 5));

@@ -7,7 +7,8 @@
 #
 #   GARMENTS='teagan_cisFemaleAdult34 titan*'  BODIES=mh_child_female   patterns of names
 #   MATRIX_DATA=DIR    with patterns/seams/*.garment.json and bodies/*.obj
-#   MATRIX_MARKS=DIR   with DESIGN.marks for garments called DESIGN_SIZE, and what is worn right
+#   MATRIX_MARKS=DIR   with DESIGN.marks for garments called DESIGN_SIZE, and what is worn right;
+#                      where there is none, marks are guessed (kitsuke import --marks guess)
 #   JOBS=N             pairs at a time
 #
 # The letters of a row that is not right: L a limb or the head is in no hole or the wrong one; P cloth
@@ -33,7 +34,8 @@ pair() {
   name=$1/$2@$3
   rm -f "$name".*
   guide=$marks/${2%%_*}.marks
-  "$kitsuke" import "$data/patterns/seams/$2.garment.json" --marks "$guide" --journal "$name.kitsuke" 2>"$name.log" &&
+  [ -f "$guide" ] || guide=guess
+  "$kitsuke" import "$data/patterns/seams/$2.garment.json" --marks "$guide" --journal "$name.kitsuke" >"$name.log" 2>&1 &&
     "$kitsuke" dress "$name.kitsuke" --body "$data/bodies/$3.obj" --obj "$name.obj" --body-obj "$1/bodies/$3.obj" \
       --report "$name.json" >"$name.log" 2>&1 &&
     "$tools/drape" "$name.obj" "$1/bodies/$3.obj" "$name.png" >"$name.check.json" 2>>"$name.log"
@@ -47,7 +49,7 @@ judge() {
     printf '%-58s D     %s\n' "$pair" "$(tail -n 1 "$1.log")"
     return
   }
-  worn=$(sed -n 's/^# worn: //p' "$2")
+  worn=$(sed -n 's/^# worn: //p' "$2" 2>/dev/null)
   links="head $(value "$1.json" head_through_collar | sed 's/true/1/;s/false/0/') arms $(value "$1.json" arms_in_sleeves) \
 legs $(value "$1.json" legs_in_legs)"
   for key in vertices_inside midpoints_inside centres_inside edge_crossings_body; do
