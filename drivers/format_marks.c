@@ -287,12 +287,20 @@ static bool add_mark(struct reader *reader)
 	return true;
 }
 
+/* In a word a blank of the name is written _. */
+static bool names(const char *word, const char *name)
+{
+	for (; *name && (*word == *name || (*word == '_' && *name == ' ')); name++)
+		word++;
+	return *word == *name;
+}
+
 static bool read_piece(struct reader *reader)
 {
 	reader->piece_index = -1;
 	for (int p = 0; p < PIECES_MAX; p++)
 		if (reader->pattern->piece[p].used &&
-		    strcmp(reader->pattern->piece[p].name, peek(reader)) == 0)
+		    names(peek(reader), reader->pattern->piece[p].name))
 			reader->piece_index = p;
 	if (reader->piece_index < 0)
 		return fail(reader, "there is no piece \"%.40s\"", peek(reader));

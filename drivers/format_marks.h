@@ -9,10 +9,11 @@
  *
  *   PIECE PLACE PLACE ... on LANDMARK [FROM TO]
  *
- * A PLACE is a name that the garment's file gives to a point of the outline, or @X,Y in mm; A/B
- * lies halfway between two of them, A/B/0.3 after that share of the way; behind any of these :up,
- * :down, :left or :right means the piece's far rim straight on from there. From place to place the
- * line is straight, or, with `..` between them, follows the outline the shorter way round. Behind a
+ * A blank in a piece's name is written _. A PLACE is a name that the garment's file gives to a
+ * point of the outline, or @X,Y in mm; A/B lies halfway between two of them, A/B/0.3 after that
+ * share of the way; behind any of these :up, :down, :left or :right means the piece's far rim
+ * straight on from there. From place to place the line is straight, or, with `..` between them,
+ * follows the outline the shorter way round. Behind a
  * + it goes on in another piece as though both lay end to end. FROM and TO are stops of the
  * landmark's line and shares of the way between them; the whole line if left out; a FROM beyond TO
  * walks it backwards. A line may begin or end beyond the cloth: points meet by their distance from

@@ -7,13 +7,14 @@
 
 enum role { ROLE_NONE, ROLE_FRONT, ROLE_BACK, ROLE_SLEEVE, ROLE_HOOD, ROLE_BAND };
 
+#define RIM_MM 0.5f /* from a rim into the cloth */
+
 enum { TEXT_BYTES = 200, CHAIN_PIECES_MAX = 4, SIDE_RIGHT = -1, SIDE_LEFT = 1 };
 
 /* Of a bodice block: neck pit and nape lie so far below the shoulder's inner end, as shares of the
  * way from the middle to the shoulder point. */
 static const float pit_share = 0.26f, nape_share = 0.08f;
 static const float shoulder_height = 0.7f; /* a shoulder seam lies above this share of its piece */
-static const float rim_mm = 0.5f;          /* from a rim into the cloth */
 static const float near_mm = 3.0f;         /* a centre line ends at a seam so near */
 
 struct guess {
@@ -37,6 +38,13 @@ __attribute__((format(printf, 2, 3))) static void put(struct guess *guess, const
 static void put_point(struct guess *guess, struct v2 p)
 {
 	put(guess, " @%.2f,%.2f", (double)p.x, (double)p.y);
+}
+
+/* A piece's name as one word. */
+static void put_name(struct guess *guess, int p)
+{
+	for (const char *at = guess->pattern->piece[p].name; *at; at++)
+		put(guess, "%c", *at == ' ' ? '_' : *at);
 }
 
 /* ---- what the file says of a piece ---- */
@@ -181,9 +189,9 @@ static float middle_of(const struct guess *guess, int p)
 			       ? 0.0f
 			       : 0.5f * (low.x + high.x);
 	if (low.x - near_mm <= 0.0f && high.x + near_mm >= 0.0f)
-		return float_clamp(0.0f, low.x + rim_mm, high.x - rim_mm);
+		return float_clamp(0.0f, low.x + RIM_MM, high.x - RIM_MM);
 	bool at_low = (guess->role[p] == ROLE_FRONT) == (guess->side[p] == SIDE_LEFT);
-	return at_low ? low.x + rim_mm : high.x - rim_mm;
+	return at_low ? low.x + RIM_MM : high.x - RIM_MM;
 }
 
 /* The highest and the lowest point of a piece on a vertical line. */
@@ -208,8 +216,9 @@ static bool cross_piece(const struct piece *piece, float x, struct v2 *top, stru
 {
 	bool crossed = false;
 	struct v2 high, low;
-	for (int aside = -1; aside <= 1; aside++)
-		if (cross_at(piece, x + (float)aside * rim_mm, &high, &low) &&
+	static const float aside_mm[] = {0.0f, -RIM_MM, RIM_MM};
+	for (int i = 0; i < COUNT_OF(aside_mm); i++)
+		if (cross_at(piece, x + aside_mm[i], &high, &low) &&
 		    (!crossed || high.y - low.y > top->y - bottom->y + near_mm)) {
 			*top = high;
 			*bottom = low;
@@ -249,7 +258,8 @@ static void put_centre(struct guess *guess, int p, struct v2 start)
 		struct v2 there;
 		if (!cross_piece(&pattern->piece[p], bottom.x, &top, &bottom))
 			break;
-		put(guess, "%s%s", links ? " + " : "", pattern->piece[p].name);
+		put(guess, "%s", links ? " + " : "");
+		put_name(guess, p);
 		put_point(guess, start);
 		put_point(guess, bottom);
 		if (!across_seam(guess, p, bottom, &next, &there) ||
@@ -259,7 +269,7 @@ static void put_centre(struct guess *guess, int p, struct v2 start)
 		start = bottom = there;
 		struct v2 low, high;
 		bounds(&pattern->piece[p], &low, &high);
-		bottom.x = float_clamp(there.x, low.x + rim_mm, high.x - rim_mm);
+		bottom.x = float_clamp(there.x, low.x + RIM_MM, high.x - RIM_MM);
 	}
 }
 
@@ -296,7 +306,7 @@ static void guess_sleeve(struct guess *guess, int p)
 	}
 	if (guess->side[p] == 0 || v2_distance(end[0], end[1]) < near_mm)
 		return;
-	put(guess, "%s", piece->name);
+	put_name(guess, p);
 	put_point(guess, top);
 	put_point(guess, v2_lerp(end[0], end[1], 0.5f));
 	put(guess, " on arm-%s-top\n", guess->side[p] == SIDE_LEFT ? "left" : "right");
@@ -344,15 +354,17 @@ static bool guess_leg(struct guess *guess, int p)
 		return false;
 	bounds(piece, &low, &high);
 	bool outer_high = high.x - fork.x > fork.x - low.x;
-	put(guess, "%s", piece->name);
+	put_name(guess, p);
 	put_point(guess, fork);
 	put(guess, " ..");
 	put_point(guess, far_end(guess, rise, fork));
-	put(guess, " on %s 2 0\n%s", centre_name(guess, p), piece->name);
+	put(guess, " on %s 2 0\n", centre_name(guess, p));
+	put_name(guess, p);
 	put_point(guess, fork);
 	put(guess, " ..");
 	put_point(guess, far_end(guess, inseam, fork));
-	put(guess, " on leg-%s-inner\n%s", side, piece->name);
+	put(guess, " on leg-%s-inner\n", side);
+	put_name(guess, p);
 	put_point(guess, fork);
 	put(guess, ":%s", outer_high ? "right" : "left");
 	put(guess, " .. @%.2f,%.2f on leg-%s-outer 0.2 2\n", (double)(outer_high ? high.x : low.x),
@@ -372,7 +384,7 @@ static void guess_hood(struct guess *guess, int p)
 			if (own2.piece == p && guess->role[other2.piece] == ROLE_BACK)
 				nape = far_end(guess, own,
 					       far_end(guess, own, edge_end(guess, own2, true)));
-		put(guess, "%s", guess->pattern->piece[p].name);
+		put_name(guess, p);
 		put_point(guess, nape);
 		put(guess, " ..");
 		put_point(guess, far_end(guess, own, nape));
@@ -411,7 +423,7 @@ static void guess_skirt(struct guess *guess, int p)
 			continue;
 		struct v2 a = edge_end(guess, own, false), b = edge_end(guess, own, true);
 		struct v2 high = a.y > b.y ? a : b, low = a.y > b.y ? b : a;
-		put(guess, "%s", piece->name);
+		put_name(guess, p);
 		put_point(guess, (struct v2){high.x, high.y + band});
 		put_point(guess, high);
 		put(guess, " ..");

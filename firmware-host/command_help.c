@@ -137,6 +137,7 @@ static void help_marks(void)
 	     "  yoke cbNeck cbYoke + back cbYoke cbHem on back-centre\n"
 	     "  front.R fork .. waistIn on front-centre 2 0\n"
 	     "\n"
+	     "A blank in a piece's name is written _.\n"
 	     "A PLACE is a name in the pattern file's `named_vertices`, or @X,Y in mm. A/B lies "
 	     "halfway from A "
 	     "to\n"
