@@ -7,6 +7,7 @@
 # make hash-matrix  the bundled tape's hash over compilers, levels, sanitizers and aarch64
 # make tremor       the bundled tape with 20 trembling hands
 # make matrix       every real garment on every real body, judged and drawn (tests/matrix.sh)
+# make examples     pictures of the paper's own examples, before and after, under build/examples
 # make format       clang-format everything; format-check only looks
 # make clean        remove build/
 #
@@ -174,6 +175,9 @@ tremor: $(B)/kitsuke
 
 matrix: $(B)/kitsuke $(B)/tests/drape $(B)/tests/contact
 	@KITSUKE=$(B)/kitsuke TOOLS=$(B)/tests tests/matrix.sh $(build)/matrix
+
+examples: $(B)/kitsuke
+	@KITSUKE=$(B)/kitsuke tests/examples.sh $(build)/examples
 
 format:
 	$(CLANG_FORMAT) -i $(wildcard */*.[ch])

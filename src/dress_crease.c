@@ -3,9 +3,8 @@
  * rests on what lies under it, body or cloth. The hand that takes hold of it again opens it. */
 #include "dress_drag_private.h"
 
-enum { CREASE_RINGS = 2 }; /* the bends on both sides of what faces the body */
-
 static const float hand_span_m = 0.15f;
+static const float bend_m = 0.075f; /* cloth so near to what faces the body belongs to the fold */
 static const float rest_step_m = 0.0005f; /* a frame: less than this is friction's */
 static const float rest_share = 0.5f;     /* and of what is more, this */
 static const float rest_near_m = 0.04f;   /* cloth farther from the body rests on nothing */
@@ -37,8 +36,9 @@ void drag_crease(struct drag *drag)
 		for (int k = 0; k < 3; k++)
 			cloth->creased[v[k]] = 1;
 	}
-	for (uint8_t ring = 1; ring <= CREASE_RINGS; ring++)
-		grow(drag, ring);
+	int rings = int_clamp((int)(bend_m / cloth->garment->edge_m), 1, UINT8_MAX - 1);
+	for (int ring = 1; ring <= rings; ring++)
+		grow(drag, (uint8_t)ring);
 	for (int j = 0; j < drag->order_count; j++)
 		cloth->creased[drag->order[j]] = cloth->creased[drag->order[j]] != 0;
 }
