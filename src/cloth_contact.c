@@ -103,6 +103,15 @@ long cloth_contact(struct cloth *cloth)
  * A point inside a face stays outside the body by lifting the face's corners: a lift is kept from
  * sweep to sweep, so that cloth over an edge of the body rests and is not pushed and dropped. */
 
+bool cloth_pierced(const struct cloth *cloth, const int *v, int corners)
+{
+	for (int k = 0; k < corners; k++)
+		if (v3_dot(cloth->contact[v[k]].normal,
+			   cloth->contact[v[(k + 1) % corners]].normal) < 0.0f)
+			return true;
+	return false;
+}
+
 /* How much a point of a face, as weights of its corners, lacks; its corners are lifted by it. */
 static long lift_point(struct cloth *cloth, const int v[3], const float weight[3])
 {
@@ -122,7 +131,7 @@ static long lift_point(struct cloth *cloth, const int v[3], const float weight[3
 	for (int k = 0; k < 3; k++)
 		if (weight[k] > 0.0f)
 			s->slack_m[v[k]] = float_min(s->slack_m[v[k]], -lack);
-	if (lack <= 0.0f || hit.distance_m < -near_m)
+	if (lack <= 0.0f || hit.distance_m < -near_m || cloth_pierced(cloth, v, 3))
 		return looked;
 	for (int k = 0; k < 3; k++) {
 		const struct contact *contact = &cloth->contact[v[k]];

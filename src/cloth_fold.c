@@ -11,7 +11,11 @@ enum {
 
 static const float fold_reach_m = 0.06f; /* a fold matters this near to the body */
 static const float fold_near_m = 0.02f;  /* and so near even when it only leans over */
-static const float behind_m = 0.25f;     /* cloth this far before a body belongs to it */
+static const float inside_m = 0.0003f;   /* a face's centre may lie so deep */
+static const float pierce_max_m = 0.03f; /* the longest thumb that is drawn back under cloth */
+static const float pierced_edges =
+	3.0f;                        /* longer edges than so many go round a limb, not a thumb */
+static const float behind_m = 0.25f; /* cloth this far before a body belongs to it */
 
 static struct v3 face_normal(const struct cloth *cloth, int t)
 {
@@ -115,25 +119,79 @@ int cloth_unfold(struct cloth *cloth, int slice, int slices, long *units)
 
 /* ---- edges ---- */
 
-/* Both ends of an edge that passes through the body go out by what its deepest sample lacks. */
-static bool push_edge(struct cloth *cloth, int a, int b)
+static void move_corners(struct cloth *cloth, const int *v, int corners, struct v3 way)
 {
-	struct v3 *x = cloth->position_m;
+	for (int k = 0; k < corners; k++) {
+		cloth->position_m[v[k]] = v3_add(cloth->position_m[v[k]], way);
+		cloth->previous_m[v[k]] = cloth->position_m[v[k]];
+		cloth->scratch->lift_m[v[k]] = 0.0f;
+	}
+}
+
+/* What pierces the cloth goes back under it: the corners go to the outside by as much as sticks out
+ * at `from`, at once, because the cloth would draw them back from half-way. */
+static bool draw_over(struct cloth *cloth, const int *v, int corners, struct v3 from,
+		      struct v3 outside)
+{
+	struct body_hit exit;
+	if (!body_segment_hits(cloth->body, from, v3_mad(from, outside, pierce_max_m), &exit))
+		return false;
+	float out = v3_distance(exit.point_m, from) + cloth->settings.offset_m;
+	float longest = pierced_edges * cloth->garment->edge_m;
+	for (int k = 0; k < corners; k++)
+		if (v3_distance(cloth->position_m[v[k]], cloth->position_m[v[(k + 1) % corners]]) >
+		    longest)
+			return false;
+	move_corners(cloth, v, corners, v3_scale(outside, out));
+	return true;
+}
+
+/* The deepest of some points between two particles. */
+static struct body_hit deepest_between(const struct cloth *cloth, struct v3 a, struct v3 b,
+				       struct v3 *at)
+{
 	struct body_hit hit, deepest = {.distance_m = 1.0f};
+	for (int i = 0; i <= EDGE_SAMPLES; i++) {
+		struct v3 p = v3_lerp(a, b, (float)i / (float)EDGE_SAMPLES);
+		body_nearest(cloth->body, p, 0, &hit);
+		if (hit.distance_m < deepest.distance_m) {
+			deepest = hit;
+			*at = p;
+		}
+	}
+	return deepest;
+}
+
+/* Both ends of an edge that passes through the body go out by what its deepest sample lacks. */
+static bool push_edge(struct cloth *cloth, int a, int b, struct v3 outside)
+{
+	const struct v3 *x = cloth->position_m;
+	const int ends[2] = {a, b};
+	struct body_hit hit;
+	struct v3 at = x[a];
 	if (!body_segment_hits(cloth->body, x[a], x[b], &hit))
 		return false;
-	for (int i = 0; i <= EDGE_SAMPLES; i++) {
-		struct v3 p = v3_lerp(x[a], x[b], (float)i / (float)EDGE_SAMPLES);
-		body_nearest(cloth->body, p, 0, &hit);
-		if (hit.distance_m < deepest.distance_m)
-			deepest = hit;
-	}
+	struct body_hit deepest = deepest_between(cloth, x[a], x[b], &at);
+	if (cloth_pierced(cloth, ends, 2) && draw_over(cloth, ends, 2, at, outside))
+		return true;
 	float lack = 0.75f * cloth->settings.offset_m - deepest.distance_m;
-	float out = float_clamp(lack, 0.001f, 0.006f);
-	x[a] = v3_mad(x[a], deepest.normal, out);
-	x[b] = v3_mad(x[b], deepest.normal, out);
-	cloth->previous_m[a] = x[a];
-	cloth->previous_m[b] = x[b];
+	move_corners(cloth, ends, 2, v3_scale(deepest.normal, float_clamp(lack, 0.001f, 0.006f)));
+	return true;
+}
+
+/* The same for a face whose centre lies in the body. */
+static bool push_face(struct cloth *cloth, const int *v, struct v3 outside)
+{
+	const struct v3 *x = cloth->position_m;
+	struct v3 centre = v3_scale(v3_add(v3_add(x[v[0]], x[v[1]]), x[v[2]]), 1.0f / 3.0f);
+	struct body_hit hit;
+	body_nearest_from(cloth->body, centre, 0, cloth->contact[v[0]].triangle, &hit);
+	if (hit.distance_m > -inside_m)
+		return false;
+	if (cloth_pierced(cloth, v, 3) && draw_over(cloth, v, 3, centre, outside))
+		return true;
+	float lack = 0.75f * cloth->settings.offset_m - hit.distance_m;
+	move_corners(cloth, v, 3, v3_scale(hit.normal, float_clamp(lack, 0.001f, 0.006f)));
 	return true;
 }
 
@@ -141,14 +199,21 @@ int cloth_push_out(struct cloth *cloth, int slice, int slices, long *units)
 {
 	int found = 0;
 	float close_m = 2.0f * cloth->garment->edge_m;
-	for (int t = slice; t < cloth->garment->triangle_count; t += slices)
+	for (int t = slice; t < cloth->garment->triangle_count; t += slices) {
+		const int *v = cloth->triangle[t].v;
+		bool close = false;
 		for (int k = 0; triangle_placed(cloth, t) && k < 3; k++) {
-			int a = cloth->triangle[t].v[k], b = cloth->triangle[t].v[(k + 1) % 3];
-			if (cloth->contact[a].distance_m < close_m) {
-				found += push_edge(cloth, a, b);
-				*units += EDGE_UNITS;
-			}
+			if (cloth->contact[v[k]].distance_m > close_m)
+				continue;
+			close = true;
+			found += push_edge(cloth, v[k], v[(k + 1) % 3], face_normal(cloth, t));
+			*units += EDGE_UNITS;
 		}
+		if (close) {
+			found += push_face(cloth, v, face_normal(cloth, t));
+			*units += LOOK_UNITS;
+		}
+	}
 	if (found > 0)
 		cloth_finish(cloth);
 	return found;

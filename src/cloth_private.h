@@ -135,6 +135,10 @@ long cloth_levels(struct cloth *cloth);  /* taut cloth pulls, coarse levels firs
 long cloth_contact(struct cloth *cloth); /* vertices out of the body, friction */
 long cloth_contact_faces(struct cloth *cloth, int slice, int slices); /* midpoints and centres */
 
+/* Corners that look away from each other have the body between them: a thumb, an ear, a thin wrist
+ * has come through the cloth, and no way along their own normals leads out. */
+bool cloth_pierced(const struct cloth *cloth, const int *v, int corners);
+
 /* Looks the contact of a particle up exactly. */
 void cloth_look(struct cloth *cloth, int v);
 
