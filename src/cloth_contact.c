@@ -52,8 +52,8 @@ static long refresh(struct cloth *cloth, int v)
 {
 	struct body_track *track = &cloth->scratch->track[v];
 	long units = 0;
-	if (cloth->contact[v].triangle < 0) {
-		track->triangle = -1;
+	if (cloth->contact[v].triangle < 0 || cloth->contact[v].triangle != track->triangle) {
+		track->triangle = -1; /* new, or its contact was taken from elsewhere */
 		return look(cloth, v);
 	}
 	float way = v3_distance(cloth->position_m[v], track->at_m);
@@ -86,15 +86,19 @@ static void push(struct cloth *cloth, int v)
 	*p = v3_mad(*p, step, -lost);
 }
 
+long cloth_touch(struct cloth *cloth, int v)
+{
+	long units = refresh(cloth, v);
+	push(cloth, v);
+	return units;
+}
+
 long cloth_contact(struct cloth *cloth)
 {
 	long units = 0;
-	for (int v = 0; v < cloth->garment->vertex_count; v++) {
-		if (!is_particle(cloth, v))
-			continue;
-		units += refresh(cloth, v);
-		push(cloth, v);
-	}
+	for (int v = 0; v < cloth->garment->vertex_count; v++)
+		if (is_particle(cloth, v))
+			units += cloth_touch(cloth, v);
 	return units;
 }
 

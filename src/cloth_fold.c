@@ -113,6 +113,11 @@ int cloth_unfold(struct cloth *cloth, int slice, int slices, long *units)
 	for (int round = 0; round < SMOOTH_ROUNDS; round++)
 		smooth(cloth);
 	*units += SMOOTH_ROUNDS * (long)cloth->garment->vertex_count;
+	for (int v = 0; v < cloth->garment->vertex_count; v++)
+		if (s->flipped[v] && is_particle(cloth, v)) {
+			*units += cloth_touch(cloth, v);
+			cloth->previous_m[v] = cloth->position_m[v];
+		}
 	cloth_finish(cloth);
 	return s->fold_count;
 }
@@ -123,8 +128,9 @@ static void move_corners(struct cloth *cloth, const int *v, int corners, struct 
 {
 	for (int k = 0; k < corners; k++) {
 		cloth->position_m[v[k]] = v3_add(cloth->position_m[v[k]], way);
-		cloth->previous_m[v[k]] = cloth->position_m[v[k]];
 		cloth->scratch->lift_m[v[k]] = 0.0f;
+		cloth_touch(cloth, v[k]);
+		cloth->previous_m[v[k]] = cloth->position_m[v[k]];
 	}
 }
 

@@ -139,6 +139,9 @@ long cloth_contact_faces(struct cloth *cloth, int slice, int slices); /* midpoin
  * has come through the cloth, and no way along their own normals leads out. */
 bool cloth_pierced(const struct cloth *cloth, const int *v, int corners);
 
+/* Contact of one particle that was moved. */
+long cloth_touch(struct cloth *cloth, int v);
+
 /* Looks the contact of a particle up exactly. */
 void cloth_look(struct cloth *cloth, int v);
 
