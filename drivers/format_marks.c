@@ -153,22 +153,30 @@ static bool find_between(struct reader *reader, const char *word, size_t size, s
 	return true;
 }
 
-/* Straight on from a point to the last place where the outline is met. */
-static bool far_rim(struct reader *reader, struct v2 way, struct v2 *point_mm)
+/* How far the outline is met straight on from a point; 0: nowhere. */
+static float far_mm(const struct piece *piece, struct v2 from_mm, struct v2 way)
 {
-	const struct piece *piece = reader->piece;
-	float far_mm = 0.0f;
+	float far = 0.0f;
 	for (int i = 0; i < piece->point_count; i++) {
-		struct v2 a = v2_sub(piece->point_mm[i], *point_mm);
-		struct v2 b = v2_sub(piece->point_mm[(i + 1) % piece->point_count], *point_mm);
+		struct v2 a = v2_sub(piece->point_mm[i], from_mm);
+		struct v2 b = v2_sub(piece->point_mm[(i + 1) % piece->point_count], from_mm);
 		float a_mm = v2_cross(way, a), b_mm = v2_cross(way, b);
 		if ((a_mm < 0.0f) != (b_mm < 0.0f))
-			far_mm = float_max(far_mm,
-					   v2_dot(way, v2_lerp(a, b, a_mm / (a_mm - b_mm))));
+			far = float_max(far, v2_dot(way, v2_lerp(a, b, a_mm / (a_mm - b_mm))));
 	}
-	*point_mm = v2_add(*point_mm, v2_scale(way, far_mm));
-	return far_mm > RIM_MM ? true
-			       : fail(reader, "\"%.60s\": no cloth lies there", peek(reader));
+	return far;
+}
+
+/* To the piece's far rim; along a rim, just beside it. */
+static bool far_rim(struct reader *reader, struct v2 way, struct v2 *point_mm)
+{
+	struct v2 aside = {-0.5f * RIM_MM * way.y, 0.5f * RIM_MM * way.x};
+	float far = far_mm(reader->piece, *point_mm, way);
+	if (far <= RIM_MM)
+		far = float_max(far_mm(reader->piece, v2_add(*point_mm, aside), way),
+				far_mm(reader->piece, v2_sub(*point_mm, aside), way));
+	*point_mm = v2_add(*point_mm, v2_scale(way, far));
+	return far > RIM_MM ? true : fail(reader, "\"%.60s\": no cloth lies there", peek(reader));
 }
 
 /* BETWEEN or BETWEEN:WAY */

@@ -227,17 +227,28 @@ static bool cross_piece(const struct piece *piece, float x, struct v2 *top, stru
 	return crossed;
 }
 
-/* The other side of the seam on which a point lies. False: it lies on none. */
-static bool across_seam(const struct guess *guess, int p, struct v2 at, int *piece,
+/* Where along an edge a point lies; at a corner it lies on both. */
+static bool on_edge(const struct guess *guess, struct edge_ref ref, struct v2 at, float *share)
+{
+	int edge;
+	for (int last = 0; last < 2; last++) {
+		*share = (float)last;
+		if (v2_distance(edge_end(guess, ref, last), at) < near_mm)
+			return true;
+	}
+	return piece_nearest_edge(&guess->pattern->piece[ref.piece], at, &edge, share) < near_mm &&
+	       edge == ref.edge;
+}
+
+/* The other side of a seam on which a point lies, in a piece of some role. False: it is on none. */
+static bool across_seam(const struct guess *guess, int p, struct v2 at, enum role role, int *piece,
 			struct v2 *there)
 {
 	struct edge_ref own, other;
 	for (int i = 0; seam_side(guess, i, &own, &other); i++) {
-		int edge;
 		float share;
-		if (own.piece != p || other.piece == p ||
-		    piece_nearest_edge(&guess->pattern->piece[p], at, &edge, &share) > near_mm ||
-		    edge != own.edge)
+		if (own.piece != p || other.piece == p || guess->role[other.piece] != role ||
+		    !on_edge(guess, own, at, &share))
 			continue;
 		if (!guess->pattern->seam[i / 2].swapped)
 			share = 1.0f - share;
@@ -262,8 +273,7 @@ static void put_centre(struct guess *guess, int p, struct v2 start)
 		put_name(guess, p);
 		put_point(guess, start);
 		put_point(guess, bottom);
-		if (!across_seam(guess, p, bottom, &next, &there) ||
-		    guess->role[next] != guess->role[p])
+		if (!across_seam(guess, p, bottom, guess->role[p], &next, &there))
 			break;
 		p = next;
 		start = bottom = there;
@@ -393,38 +403,42 @@ static void guess_hood(struct guess *guess, int p)
 	}
 }
 
-/* How far a waistband stands above the pieces sewn to it. */
-static float band_mm(const struct guess *guess)
+/* Across the waistband from its upper edge to the seam that a point lies on, if there is one. */
+static void put_band(struct guess *guess, int p, struct v2 at)
 {
-	float width_mm = 0.0f;
-	for (int p = 0; p < PIECES_MAX; p++) {
-		struct v2 low, high;
-		if (guess->role[p] != ROLE_BAND)
-			continue;
-		bounds(&guess->pattern->piece[p], &low, &high);
-		width_mm = float_max(width_mm, float_min(high.x - low.x, high.y - low.y));
-	}
-	return width_mm;
+	struct v2 there, low, high;
+	int band;
+	if (!across_seam(guess, p, at, ROLE_BAND, &band, &there))
+		return;
+	bounds(&guess->pattern->piece[band], &low, &high);
+	bool upright = high.y - low.y > high.x - low.x;
+	const char *way = upright ? (high.x - there.x > there.x - low.x ? "right" : "left")
+				  : (high.y - there.y > there.y - low.y ? "up" : "down");
+	put_name(guess, band);
+	put_point(guess, there);
+	put(guess, ":%s", way);
+	put_point(guess, there);
+	put(guess, " + ");
 }
 
 /* From the waist to below the hips, at the middle and, in front, along the side seams. */
 static void guess_skirt(struct guess *guess, int p)
 {
-	const struct piece *piece = &guess->pattern->piece[p];
-	float band = band_mm(guess), middle_x = middle_of(guess, p);
+	float middle_x = middle_of(guess, p);
 	struct edge_ref own, other;
 	struct v2 top, bottom;
-	if (!cross_piece(piece, middle_x, &top, &bottom))
+	if (!cross_piece(&guess->pattern->piece[p], middle_x, &top, &bottom))
 		return;
-	put_centre(guess, p, (struct v2){middle_x, top.y + band});
+	put_band(guess, p, top);
+	put_centre(guess, p, top);
 	put(guess, " on %s 1 1.7\n", centre_name(guess, p));
 	for (int i = 0; guess->role[p] == ROLE_FRONT && seam_side(guess, i, &own, &other); i++) {
 		if (own.piece != p || guess->role[other.piece] != ROLE_BACK)
 			continue;
 		struct v2 a = edge_end(guess, own, false), b = edge_end(guess, own, true);
 		struct v2 high = a.y > b.y ? a : b, low = a.y > b.y ? b : a;
+		put_band(guess, p, high);
 		put_name(guess, p);
-		put_point(guess, (struct v2){high.x, high.y + band});
 		put_point(guess, high);
 		put(guess, " ..");
 		put_point(guess, low);

@@ -57,6 +57,8 @@ static void test_ways(void)
 	CHECK(read_marks("front a/c a/c:left on x"));
 	check_point(0, 0, 50, -50);
 	check_point(0, -1, 0, -50);
+	CHECK(read_marks("front a a:down on x")); /* along the rim */
+	check_point(0, -1, 0, -100);
 	CHECK(read_marks("front a a/b:right on x"));
 	check_point(0, -1, 100, -50);
 	CHECK(read_marks("front a .. c on x")); /* 200 mm round the corner, not 141 across it */

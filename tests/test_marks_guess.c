@@ -58,6 +58,21 @@ static void test_chain(void)
 	      strstr(out, "-600.00 + front_lower @0.00,0.00 @0.00,-300.00 on front-centre\n"));
 }
 
+/* Nothing high up joins front and back: a skirt, which hangs from its waistband's upper edge. */
+static void test_skirt(void)
+{
+	CHECK(guess(FILE_OF(
+		      "{\"id\":\"front\",\"outline\":[[-200,0],[-200,600],[200,600],[200,0]]},"
+		      "{\"id\":\"back\",\"outline\":[[-200,0],[-200,600],[200,600],[200,0]]},"
+		      "{\"id\":\"waistband\",\"outline\":[[-200,0],[-200,60],[200,60],[200,0]]}",
+		      SEAM("s", "front", "2", "3", "1", "back", "1", "0", "-1") "," SEAM(
+			      "w", "front", "3", "0", "1", "waistband", "2", "1", "-1"))) > 0);
+	CHECK(strstr(out, "waistband @0.00,-60.00:up @0.00,-60.00 + front @0.00,0.00 @0.00,-600.00 "
+			  "on front-centre 1 1.7\n"));
+	CHECK(strstr(out, "front @200.00,0.00 .. @200.00,-600.00 on side-left 1 2\n"));
+	CHECK(strstr(out, "back @0.00,0.00 @0.00,-600.00 on back-centre 1 1.7\n"));
+}
+
 static void test_nothing(void)
 {
 	CHECK(guess(FILE_OF("{\"id\":\"rag\",\"outline\":[[0,0],[0,100],[100,100],[100,0]]}",
@@ -72,6 +87,7 @@ int main(void)
 {
 	test_top();
 	test_chain();
+	test_skirt();
 	test_nothing();
 	return test_end();
 }
