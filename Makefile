@@ -156,8 +156,9 @@ PEERS := $(call objects,$(wildcard tests/peers*.c))
 PEER_OBJECTS := $(patsubst %.cpp,$(B)/%.o,$(wildcard tests/peer_*.cpp))
 PEER_LIBS = $(shell pkg-config --libs bullet) $(patsubst /usr/include/embree%,-lembree%,$(wildcard /usr/include/embree[34])) -lgmp
 peers: $(B)/tests/peers
+$(B)/tests/peers: LINK := -Wl,--wrap=cloth_self
 $(B)/tests/peers: $(PEERS) $(PEER_OBJECTS) $(B)/kitsuke.a
-	$(call SHORT,link)$(CXX) $^ $(LDFLAGS) -Wl,--as-needed $(PEER_LIBS) -lm -o $@
+	$(call SHORT,link)$(CXX) $^ $(LINK) $(LDFLAGS) -Wl,--as-needed $(PEER_LIBS) -lm -o $@
 $(B)/tests/%.o: tests/%.cpp Makefile
 	@mkdir -p $(@D)
 	$(call SHORT,c++,$<)$(CXX) $(INC_tests) -O2 -DNDEBUG -MMD -MP $(shell pkg-config --cflags bullet) -c $< -o $@

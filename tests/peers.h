@@ -37,7 +37,9 @@ enum { DRAPE_FRAMES = 300 };
 /* A drape of DRAPE_FRAMES frames of 1/60 s: the price of each, and what it came to. */
 struct drape {
 	double ms[DRAPE_FRAMES];
-	double mean_ms, worst_ms;         /* of all frames but the first, which builds tables */
+	double self_ms[DRAPE_FRAMES]; /* and cloth against cloth, which peers leave out */
+	double mean_ms, worst_ms;     /* of all frames but the first, which builds tables */
+	double self_mean_ms;
 	double stretch_mean, stretch_max; /* 0.01: 1 %; edges longer than in the flat poncho */
 	float low_m, high_m;
 };

@@ -7,16 +7,30 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { SIZES = 3, PEER_SIZES = 2, LAPS = 40 };
+enum { SIZES = 3, PEER_SIZES = 2, LAPS = 40, RUNS = 2 };
 
 static const int vertices_wanted[SIZES] = {2056, 10104, 49608};
 
 static void time_frames(struct drape *drape)
 {
-	drape->mean_ms = drape->worst_ms = 0.0;
+	drape->mean_ms = drape->worst_ms = drape->self_mean_ms = 0.0;
 	for (int f = 1; f < DRAPE_FRAMES; f++) {
+		drape->self_mean_ms += drape->self_ms[f] / (DRAPE_FRAMES - 1);
 		drape->mean_ms += drape->ms[f] / (DRAPE_FRAMES - 1);
 		drape->worst_ms = drape->ms[f] > drape->worst_ms ? drape->ms[f] : drape->worst_ms;
+	}
+}
+
+/* Both repeat themselves to the bit, so the least of several runs is the frame without what else
+ * the machine did. */
+static void keep_least(struct drape *kept, const struct drape *run, bool first)
+{
+	if (first)
+		*kept = *run;
+	for (int f = 0; f < DRAPE_FRAMES; f++) {
+		kept->ms[f] = run->ms[f] < kept->ms[f] ? run->ms[f] : kept->ms[f];
+		kept->self_ms[f] = run->self_ms[f] < kept->self_ms[f] ? run->self_ms[f]
+								      : kept->self_ms[f];
 	}
 }
 
@@ -62,6 +76,8 @@ static void add_rows(int vertices, const struct drape *own, const struct drape *
 	add(vertices, "frame", "ms", own->mean_ms, NO_TARGET, name, peer->mean_ms, 10.0);
 	add(vertices, "worst frame", "means", own->worst_ms / own->mean_ms, 1.5, name,
 	    peer->worst_ms / peer->mean_ms, NO_TARGET);
+	add(vertices, "and cloth against cloth", "ms", own->self_mean_ms, NO_TARGET, NULL, 0.0,
+	    NO_TARGET);
 	add(vertices, "mean stretch at rest", "%", 100.0 * own->stretch_mean, 1.0, name,
 	    100.0 * peer->stretch_mean, NO_TARGET);
 	add(vertices, "largest stretch at rest", "%", 100.0 * own->stretch_max, 15.0, name,
@@ -97,18 +113,42 @@ static void kernels(struct cloth *cloth)
 	peers_add(&row);
 }
 
+static bool drape_peer(const struct session *session, const struct peers_body *body,
+		       struct peers_cloth *end, struct drape *best)
+{
+	static struct drape again;
+	for (int run = 0; run < RUNS; run++) {
+		poncho_free(end);
+		poncho_take(session, end);
+		if (!peer_bullet_drape(body, end, &again))
+			return false;
+		keep_least(best, &again, run == 0);
+	}
+	return true;
+}
+
+static void drape_own(struct session *session, int vertices, struct peers_cloth *end,
+		      struct drape *best)
+{
+	static struct drape again;
+	for (int run = 0; run < RUNS; run++) {
+		poncho_lay(session, vertices);
+		poncho_fall(session, &again);
+		keep_least(best, &again, run == 0);
+	}
+	poncho_take(session, end);
+}
+
 /* Nanoseconds a vertex and frame. */
 static double drape_size(struct session *session, const struct peers_body *body, int size,
 			 bool with_peers)
 {
 	static struct drape own, bullet;
-	struct peers_cloth flat, end, peer;
+	struct peers_cloth flat = {0}, end = {0}, peer = {0};
 	poncho_lay(session, vertices_wanted[size]);
 	poncho_take(session, &flat);
-	poncho_take(session, &peer);
-	bool peers = with_peers && size < PEER_SIZES && peer_bullet_drape(body, &peer, &bullet);
-	poncho_fall(session, &own);
-	poncho_take(session, &end);
+	bool peers = with_peers && size < PEER_SIZES && drape_peer(session, body, &peer, &bullet);
+	drape_own(session, vertices_wanted[size], &end, &own);
 	time_frames(&own);
 	measure(&flat, &end, &own);
 	if (peers) {
