@@ -8,6 +8,7 @@
 #include "character.h"
 #include "journal.h"
 #include "options.h"
+#include "processor.h"
 #include "session.h"
 #include "store.h"
 
@@ -225,6 +226,7 @@ static bool open_calibration(struct calibration *calibration)
 	}
 	arena_init(&arena, calibration->memory, KIOSK_MEMORY_BYTES);
 	session_init(calibration->session, &arena);
+	calibration->session->cloth.lanes = processor_lanes();
 	return character_load(&calibration->session->body, CHARACTER_MANNEQUIN, NULL, note,
 			      calibration->fault);
 }

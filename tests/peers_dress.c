@@ -2,6 +2,7 @@
  * mesher against CGAL's. */
 #include "garment_figures.h"
 #include "peers_rows.h"
+#include "processor.h"
 #include "scene.h"
 
 enum { GRABS = 32, MESHINGS = 9, SHIRT_TRIANGLES = 2000 };
@@ -51,6 +52,7 @@ static void pen_down(struct scene *scene)
 void peers_dressing(void)
 {
 	struct scene *scene = scene_open();
+	scene->session.cloth.lanes = processor_lanes();
 	MUST(scene_play(scene, "tests/journals/tshirt.kitsuke") == 0);
 	wrap(scene, 2000, 60.0);
 	wrap(scene, 10000, 400.0);
