@@ -66,6 +66,9 @@ static const struct edit_help edit_help[EDIT_KIND_COUNT] = {
 	[EDIT_PIN] = {"PIECE X Y", "holds a cloth point where it is"},
 	[EDIT_UNPIN] = {"PIN", "takes a pin out"},
 	[EDIT_RELAX] = {"ON", "1: the cloth finds its own shape, 0: no longer"},
+	[EDIT_FABRIC] = {"NAME",
+			 "what the garment is made of: jersey, silk, denim, wool, leather or "
+			 "elastic"},
 	[EDIT_UNDO] = {"", "one step back"},
 	[EDIT_REDO] = {"", "and forward again"},
 	[EDIT_CLEAR] = {"", "starts over; can be undone"},

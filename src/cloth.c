@@ -1,5 +1,6 @@
 #include "cloth_private.h"
 #include "cloth_self.h"
+#include "fabric.h"
 
 enum { FACE_SLICES = 10 }; /* a frame's sweeps: all faces once a frame */
 
@@ -309,7 +310,7 @@ static void remember(struct cloth *cloth)
 	}
 }
 
-long cloth_sweep(struct cloth *cloth)
+static long sweep(struct cloth *cloth)
 {
 	long units = cloth->garment->vertex_count;
 	cloth_take(cloth);
@@ -325,5 +326,16 @@ long cloth_sweep(struct cloth *cloth)
 	units += cloth_contact(cloth);
 	remember(cloth);
 	cloth->sweep++;
+	return units;
+}
+
+/* A wrap is the same for every fabric; worn cloth shows what it is made of. */
+long cloth_sweep(struct cloth *cloth)
+{
+	struct cloth_settings stage = cloth->settings;
+	if (cloth->worn)
+		cloth->settings = fabric_settings(&stage, cloth->fabric);
+	long units = sweep(cloth);
+	cloth->settings = stage;
 	return units;
 }

@@ -31,9 +31,10 @@
 	X(EDIT_GRAB, "grab", "iff") /* piece x y: the cloth point under the pen */                 \
 	X(EDIT_DRAG, "drag", "fff") /* x y z in m: where the pen pulls it */                       \
 	X(EDIT_RELEASE, "release", "")                                                             \
-	X(EDIT_PIN, "pin", "iff")   /* piece x y */                                                \
-	X(EDIT_UNPIN, "unpin", "i") /* pin */                                                      \
-	X(EDIT_RELAX, "relax", "i") /* 1 on, 0 off */                                              \
+	X(EDIT_PIN, "pin", "iff")     /* piece x y */                                              \
+	X(EDIT_UNPIN, "unpin", "i")   /* pin */                                                    \
+	X(EDIT_RELAX, "relax", "i")   /* 1 on, 0 off */                                            \
+	X(EDIT_FABRIC, "fabric", "n") /* name: what the garment is made of (fabric.h) */           \
 	X(EDIT_UNDO, "undo", "")                                                                   \
 	X(EDIT_REDO, "redo", "")                                                                   \
 	X(EDIT_CLEAR, "clear", "")    /* start over; can be undone */                              \

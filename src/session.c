@@ -76,6 +76,7 @@ void session_resume(struct session *session, bool wrapping)
 {
 	if (session->drag.active)
 		drag_end(&session->drag);
+	session->cloth.fabric = session->document.fabric;
 	session->relaxing = false;
 	session->job = JOB_NONE;
 	session->cloth.settings = cloth_settings_worn();
@@ -104,6 +105,7 @@ static const char *clear(struct session *session)
 	session_release(session);
 	undo_keep(session);
 	memset(&session->document, 0, sizeof session->document);
+	session->cloth.fabric = 0;
 	session->relaxing = false;
 	session->job = JOB_NONE;
 	cloth_reset(&session->cloth, NULL, &session->body);
@@ -245,6 +247,7 @@ uint64_t session_hash(const struct session *session)
 	hash_u32(&hash, (uint32_t)(session->body.hash >> 32));
 	hash_pattern(&hash, &session->document.pattern);
 	hash_marks(&hash, &session->document.marks);
+	hash_int(&hash, session->document.fabric);
 	for (int p = 0; p < PINS_MAX; p++) {
 		const struct pin *pin = &session->document.pin[p];
 		hash_int(&hash, pin->used);

@@ -25,6 +25,7 @@ struct document {
 	struct pattern pattern;
 	struct marks marks;
 	struct pin pin[PINS_MAX];
+	int fabric; /* fabric_at */
 };
 
 struct undo; /* ring of whole states */

@@ -1,4 +1,5 @@
 /* The edits on and around the body: marks, wrap, drag, pins, relax (S6 to S12). */
+#include "fabric.h"
 #include "session_private.h"
 #include "session_undo.h"
 
@@ -270,6 +271,16 @@ static const char *relax(struct session *session, const struct edit *edit)
 	return NULL;
 }
 
+static const char *choose_fabric(struct session *session, const struct edit *edit)
+{
+	int fabric = fabric_named(edit->name);
+	if (fabric < 0)
+		return "no such fabric: kitsuke help journal names them";
+	undo_keep(session);
+	session->document.fabric = session->cloth.fabric = fabric;
+	return NULL;
+}
+
 static const char *apply(struct session *session, const struct edit *edit)
 {
 	switch (edit->kind) {
@@ -296,6 +307,8 @@ static const char *apply(struct session *session, const struct edit *edit)
 		return unpin(session, edit);
 	case EDIT_RELAX:
 		return relax(session, edit);
+	case EDIT_FABRIC:
+		return choose_fabric(session, edit);
 	default:
 		must_fail("an edit around the body", __FILE__, __LINE__);
 		return NULL;
