@@ -11,7 +11,7 @@
  */
 #include "dress_drag_private.h"
 
-static const float grip_m = 0.045f;  /* what the fingers hold */
+static const float grip_m = 0.045f; /* what the fingers hold */
 static const float near_m = 0.03f;  /* cloth nearer to the body than this follows its surface */
 static const float loose_m = 0.06f; /* cloth farther from the body than this follows in space */
 static const float hand_region_m = 0.08f;
