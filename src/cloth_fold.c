@@ -4,9 +4,10 @@
 enum {
 	SMOOTH_ROUNDS = 20,
 	EDGE_SAMPLES = 8,
-	LOOK_UNITS = 32, /* an exact query */
+	LOOK_UNITS = 64, /* an exact query */
+	PASS_UNITS = 4,  /* a particle copied out and in, whatever else is done */
 	FOLD_UNITS = 8,  /* a triangle's centre walked to the body */
-	EDGE_UNITS = 8,  /* an edge's way through the tree, where it is short */
+	EDGE_UNITS = 24, /* an edge's way through the tree, where it is short */
 };
 
 static const float fold_reach_m = 0.06f; /* a fold matters this near to the body */
@@ -238,6 +239,7 @@ int cloth_clean(struct cloth *cloth, int slice, int slices, long *units)
 	*units += cloth_contact_faces(cloth, slice, slices);
 	int found = cloth_push_out(cloth, slice, slices, units);
 	*units += cloth_contact(cloth);
+	*units += PASS_UNITS * (long)count;
 	cloth_finish(cloth);
 	return found;
 }

@@ -13,7 +13,7 @@ enum {
 	STILL_SLICES = 8,  /* frames a round of looking for folds or of cleaning */
 	CLEAN_ROUNDS = 6,  /* at most; two when nothing is found */
 	BUILD_UNITS = 200, /* a vertex's share of the cloth's tables does */
-	CUT_UNITS = 8,     /* a step of the mesher costs as much as so many units */
+	CUT_UNITS = 7,     /* a step of the mesher costs as much as so many units */
 	PAUSE_FRAMES = 6,  /* a pen that rests so long lets the cloth relax under it */
 	EASE_FRAMES = 90,  /* and so long it relaxes after the last touch */
 };

@@ -9,7 +9,10 @@ static struct cloth cloth;
 static struct garment_job *job;
 static struct pattern pattern;
 
-enum { RINGS = 24, SIDES = 48 };
+enum { RINGS = 24, SIDES = 48, PRICED_SWEEPS = 200 };
+
+/* Of a sheet half in the air: 2 triangles, 3 edges, levels, contact; 10 today. */
+#define UNITS_A_VERTEX_MAX 12.0f
 
 /* A closed upright cylinder with domed ends: r = 0.15 m, y from 0 to 1 m, its axis at the origin.
  */
@@ -157,6 +160,38 @@ static void test_drape_rests(void)
 	CHECK(moved / (float)garment.vertex_count < 0.05e-3f);
 	CHECK(deepest_m() > 0.0f);
 	CHECK(cloth_strain_mean(&cloth) < 0.02f);
+}
+
+/* Units that a vertex costs in a sweep, while a sheet falls on the post. */
+static float units_a_vertex(int vertices)
+{
+	long units = 0;
+	memset(&pattern, 0, sizeof pattern);
+	add_rectangle(0, 500.0f, 500.0f);
+	mesh(vertices);
+	lay((struct v3){-0.25f, 1.06f, 0.25f}, (struct v3){1.0f, 0.0f, 0.0f},
+	    (struct v3){0.0f, 0.0f, -1.0f});
+	cloth_sweep(&cloth); /* looks everything up */
+	for (int sweep = 0; sweep < PRICED_SWEEPS; sweep++)
+		units += cloth_sweep(&cloth);
+	return (float)units / (float)(PRICED_SWEEPS * garment.vertex_count);
+}
+
+/* A sweep's work is in proportion to the mesh, so that twice the cloth costs twice as much and no
+ * more. Counted, not timed. */
+static void test_price(void)
+{
+	float least = 1e9f, most = 0.0f;
+	for (int vertices = 400; vertices <= 6400; vertices *= 4) {
+		float units = units_a_vertex(vertices);
+		least = float_min(least, units);
+		most = float_max(most, units);
+	}
+	CHECK(most < 1.5f * least);
+	CHECK(most < UNITS_A_VERTEX_MAX);
+	if (test_failures > 0)
+		fprintf(stderr, "a vertex and sweep cost %.1f to %.1f units\n", (double)least,
+			(double)most);
 }
 
 /* Two sheets sewn along an edge: the gap closes, the weld makes one vertex of each pair, and the
@@ -316,6 +351,7 @@ int main(void)
 	build_post();
 	test_hanging_patch();
 	test_drape_rests();
+	test_price();
 	test_seam_closes();
 	test_fold_turns_back();
 	test_restore_repeats();
