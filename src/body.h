@@ -114,6 +114,13 @@ bool body_ray_back(const struct body *body, struct v3 origin_m, struct v3 direct
 bool body_ray_out(const struct body *body, struct v3 origin_m, struct v3 direction,
 		  struct body_hit *hit);
 
+/* Does an edge of cloth pass so near to a bone of the part (a limb or head and neck) that it must
+ * be inside, whatever its ends do? Then *push_m is the way that brings it out of the bone's core:
+ * to the side of `outward` (the sum of the surface's unit normals at the edge's ends), or, when the
+ * two cancel, to the side on which it lies. */
+bool body_bone_crossed(const struct body *body, enum body_part part, struct v3 a_m, struct v3 b_m,
+		       struct v3 outward, struct v3 *push_m);
+
 /* Does the segment pass through the surface? */
 bool body_segment_hits(const struct body *body, struct v3 a_m, struct v3 b_m, struct body_hit *hit);
 

@@ -109,6 +109,40 @@ static void test_given(void)
 	CHECK(body.bone_count == 2 && body.bone[1].part == PART_ARM_LEFT);
 }
 
+/* An edge through the forearm: pushed out on the side of its ends' normals, or the nearer one. */
+static void test_crossed(void)
+{
+	struct v3 push = {0.0f, 0.0f, 0.0f};
+	CHECK(!body_build_mannequin(&body));
+	CHECK(body_find_parts(&body));
+	const struct bone *arm = &body.bone[0];
+	while (arm->part != PART_ARM_LEFT)
+		arm++;
+	arm++;
+	struct v3 middle = v3_lerp(arm->a_m, arm->b_m, 0.5f);
+	struct v3 axis = v3_normalize(v3_sub(arm->b_m, arm->a_m));
+	struct v3 front = v3_normalize(v3_mad((struct v3){0.0f, 0.0f, 1.0f}, axis, -axis.z));
+	struct v3 up = v3_cross(front, axis), back = v3_scale(front, -1.0f);
+	/* across the limb, a little behind the bone, though it belongs in front */
+	struct v3 at = v3_mad(middle, front, -0.1f * arm->radius_m);
+	struct v3 a = v3_mad(at, up, 0.05f), b = v3_mad(at, up, -0.05f);
+	CHECK(body_bone_crossed(&body, PART_ARM_LEFT, a, b, v3_scale(front, 1.6f), &push));
+	CHECK_NEAR(v3_dot(push, front), 0.7 * (double)arm->radius_m, 1e-4);
+	CHECK_NEAR(v3_length(push), v3_dot(push, front), 1e-4);
+	CHECK(body_bone_crossed(&body, PART_ARM_LEFT, b, a, (struct v3){0.0f, 0.0f, 0.0f}, &push));
+	CHECK_NEAR(v3_dot(push, back), 0.5 * (double)arm->radius_m, 1e-4);
+	/* another limb's; on the skin; beyond the bone's end; no edge at all */
+	CHECK(!body_bone_crossed(&body, PART_ARM_RIGHT, a, b, front, &push));
+	CHECK(!body_bone_crossed(&body, PART_TRUNK, a, b, front, &push));
+	at = v3_mad(middle, front, arm->radius_m);
+	CHECK(!body_bone_crossed(&body, PART_ARM_LEFT, v3_mad(at, up, 0.05f),
+				 v3_mad(at, up, -0.05f), front, &push));
+	at = v3_mad(body.bone[0].a_m, axis, -0.2f);
+	CHECK(!body_bone_crossed(&body, PART_ARM_LEFT, v3_mad(at, up, 0.05f),
+				 v3_mad(at, up, -0.05f), front, &push));
+	CHECK(!body_bone_crossed(&body, PART_ARM_LEFT, middle, middle, front, &push));
+}
+
 int main(void)
 {
 	enum { BYTES = 96 << 20 };
@@ -120,6 +154,7 @@ int main(void)
 	test_order();
 	test_found();
 	test_given();
+	test_crossed();
 	free(memory);
 	return test_end();
 }
