@@ -3,9 +3,9 @@
  */
 #include "body.h"
 
-/* An edge nearer to the bone than this share of the limb's radius is through the skin beyond doubt,
- * though limbs are not round. */
-static const float core_share = 0.6f;
+/* An edge nearer to the bone than this share of the limb's mean radius may be inside; limbs are not
+ * round, so there the surface itself is asked. */
+static const float core_share = 0.75f;
 
 /* Below this length the sum of the ends' normals says nothing: the ends lie on opposite sides. */
 static const float outward_least = 0.3f;
@@ -53,8 +53,12 @@ bool body_bone_crossed(const struct body *body, enum body_part part, struct v3 a
 		struct v3 from_bone = v3_sub(v3_mad(a_m, edge, t), v3_mad(bone->a_m, way, s));
 		if (s <= 0.0f || s >= 1.0f || v3_dot(from_bone, from_bone) >= core_m * core_m)
 			continue;
+		struct body_hit hit;
+		body_nearest(body, v3_mad(a_m, edge, t), 0, &hit);
+		if (hit.distance_m >= 0.0f)
+			continue;
 		struct v3 out = way_out(v3_normalize(way), outward, from_bone);
-		float depth_m = core_m - v3_dot(from_bone, out);
+		float depth_m = bone->radius_m - v3_dot(from_bone, out);
 		if (depth_m <= deepest_m)
 			continue;
 		crossed = true;

@@ -3,6 +3,7 @@
 
 enum {
 	WALK_STEPS_MAX = 12,
+	BONE_UNITS = 1, /* an edge against the bones of a limb */
 	RAY_UNITS = 32, /* a segment's way through the tree, in triangles looked at */
 };
 
@@ -172,6 +173,26 @@ static void lower_lifts(struct cloth *cloth)
 	}
 }
 
+/* An edge whose ends both lie on one limb, or on the neck, and that passes the bone inside is on
+ * the wrong side of it: both ends move the way back (S19). */
+static long leave_bone(struct cloth *cloth, int a, int b)
+{
+	const struct body *body = cloth->body;
+	const struct contact *on_a = &cloth->contact[a], *on_b = &cloth->contact[b];
+	enum body_part part = (enum body_part)body->part[on_a->triangle];
+	struct v3 push;
+	if (part == PART_TRUNK || body->part[on_b->triangle] != part)
+		return 0;
+	if (!body_bone_crossed(body, part, cloth->position_m[a], cloth->position_m[b],
+			       v3_add(on_a->normal, on_b->normal), &push))
+		return BONE_UNITS;
+	float length = v3_length(push);
+	push = v3_scale(push, float_min(length, push_max_m) / float_max(length, 1e-6f));
+	cloth->position_m[a] = v3_add(cloth->position_m[a], push);
+	cloth->position_m[b] = v3_add(cloth->position_m[b], push);
+	return BONE_UNITS;
+}
+
 /* Slice `slice` of `slices` of all triangles: three points of every edge, and the centre. Edges of
  * two triangles are looked at in the first. */
 long cloth_contact_faces(struct cloth *cloth, int slice, int slices)
@@ -185,6 +206,9 @@ long cloth_contact_faces(struct cloth *cloth, int slice, int slices)
 		if (!triangle_placed(cloth, t) || !near_body(cloth, v))
 			continue;
 		units += lift_point(cloth, v, third);
+		for (int k = 0; k < 3; k++)
+			if (cloth->scratch->edge_owner[t] >> k & 1)
+				units += leave_bone(cloth, v[k], v[(k + 1) % 3]);
 		for (int k = 0; k < 3; k++)
 			for (int i = 1; (cloth->scratch->edge_owner[t] >> k & 1) && i < 4; i++) {
 				float weight[3] = {0.0f, 0.0f, 0.0f};

@@ -127,10 +127,10 @@ static void test_crossed(void)
 	struct v3 at = v3_mad(middle, front, -0.1f * arm->radius_m);
 	struct v3 a = v3_mad(at, up, 0.05f), b = v3_mad(at, up, -0.05f);
 	CHECK(body_bone_crossed(&body, PART_ARM_LEFT, a, b, v3_scale(front, 1.6f), &push));
-	CHECK_NEAR(v3_dot(push, front), 0.7 * (double)arm->radius_m, 1e-4);
+	CHECK_NEAR(v3_dot(push, front), 1.1 * (double)arm->radius_m, 1e-4);
 	CHECK_NEAR(v3_length(push), v3_dot(push, front), 1e-4);
 	CHECK(body_bone_crossed(&body, PART_ARM_LEFT, b, a, (struct v3){0.0f, 0.0f, 0.0f}, &push));
-	CHECK_NEAR(v3_dot(push, back), 0.5 * (double)arm->radius_m, 1e-4);
+	CHECK_NEAR(v3_dot(push, back), 0.9 * (double)arm->radius_m, 1e-4);
 	/* another limb's; on the skin; beyond the bone's end; no edge at all */
 	CHECK(!body_bone_crossed(&body, PART_ARM_RIGHT, a, b, front, &push));
 	CHECK(!body_bone_crossed(&body, PART_TRUNK, a, b, front, &push));

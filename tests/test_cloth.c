@@ -339,6 +339,51 @@ static void test_ray(void)
 	CHECK_NEAR(normal[0].z, 1.0f, 1e-5f);
 }
 
+/* A thin limb: the post, a tenth as wide, with a bone. */
+static void build_limb(void)
+{
+	struct bone_list bones = {.count = 1};
+	int at;
+	bones.bone[0] = (struct bone){
+		PART_ARM_LEFT, {0.0f, 0.05f, 0.0f}, {0.0f, 0.95f, 0.0f}, 0.0f};
+	for (int v = 0; v < body.vertex_count; v++) {
+		body.position_m[v].x *= 0.1f;
+		body.position_m[v].z *= 0.1f;
+	}
+	CHECK(!body_build(&body, body.position_m, body.vertex_count, body.triangle,
+			  body.triangle_count));
+	CHECK(!body_give_bones(&body, &bones, &at));
+}
+
+static int edges_through(void)
+{
+	int through = 0;
+	struct body_hit hit;
+	for (int t = 0; t < garment.triangle_count; t++)
+		for (int k = 0; k < 3; k++)
+			through += body_segment_hits(
+				&body, cloth.position_m[cloth.triangle[t].v[k]],
+				cloth.position_m[cloth.triangle[t].v[(k + 1) % 3]], &hit);
+	return through;
+}
+
+/* A coarse sheet that begins half-way through a limb comes out of it on one side: its ends, left
+ * and right of the limb, do not know which. */
+static void test_leaves_limb(void)
+{
+	build_limb();
+	memset(&pattern, 0, sizeof pattern);
+	add_rectangle(0, 200.0f, 200.0f);
+	mesh(24);
+	lay((struct v3){-0.09f, 0.4f, 0.0008f}, (struct v3){1.0f, 0.0f, 0.0f},
+	    (struct v3){0.0f, 1.0f, 0.0f});
+	cloth.settings.gravity_m = 0.0f;
+	CHECK(edges_through() > 5);
+	for (int sweep = 0; sweep < 200; sweep++)
+		cloth_sweep(&cloth);
+	CHECK(edges_through() == 0);
+}
+
 int main(void)
 {
 	static unsigned char memory[192u << 20];
@@ -357,5 +402,6 @@ int main(void)
 	test_restore_repeats();
 	test_lanes_agree();
 	test_ray();
+	test_leaves_limb();
 	return test_end();
 }
