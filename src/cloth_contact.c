@@ -110,10 +110,13 @@ long cloth_contact(struct cloth *cloth)
 
 bool cloth_pierced(const struct cloth *cloth, const int *v, int corners)
 {
-	for (int k = 0; k < corners; k++)
-		if (v3_dot(cloth->contact[v[k]].normal,
-			   cloth->contact[v[(k + 1) % corners]].normal) < 0.0f)
+	for (int k = 0; k < corners; k++) {
+		int a = v[k], b = v[(k + 1) % corners];
+		struct v3 na = cloth->contact[a].normal, nb = cloth->contact[b].normal;
+		struct v3 apart = v3_sub(cloth->position_m[b], cloth->position_m[a]);
+		if (v3_dot(na, nb) < 0.0f && v3_dot(apart, v3_sub(nb, na)) > 0.0f)
 			return true;
+	}
 	return false;
 }
 

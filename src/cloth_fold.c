@@ -125,13 +125,15 @@ int cloth_unfold(struct cloth *cloth, int slice, int slices, long *units)
 
 /* ---- edges ---- */
 
+/* Corners keep their momentum: what they are moved by is no motion of theirs. */
 static void move_corners(struct cloth *cloth, const int *v, int corners, struct v3 way)
 {
 	for (int k = 0; k < corners; k++) {
-		cloth->position_m[v[k]] = v3_add(cloth->position_m[v[k]], way);
+		struct v3 *p = &cloth->position_m[v[k]], before = *p;
+		*p = v3_add(*p, way);
 		cloth->scratch->lift_m[v[k]] = 0.0f;
 		cloth_touch(cloth, v[k]);
-		cloth->previous_m[v[k]] = cloth->position_m[v[k]];
+		cloth->previous_m[v[k]] = v3_add(cloth->previous_m[v[k]], v3_sub(*p, before));
 	}
 }
 
