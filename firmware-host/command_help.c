@@ -50,6 +50,8 @@ static const struct edit_help edit_help[EDIT_KIND_COUNT] = {
 	[EDIT_MIRROR] = {"PIECE", "its shape becomes its mirror image"},
 	[EDIT_DELETE] = {"PIECE", "away with it, its seams and its marks"},
 	[EDIT_SWATCH] = {"PIECE SWATCH", "another cloth"},
+	[EDIT_LAYER] = {"PIECE LAYER", "its garment is worn over those of lower layers; equal "
+				       "ones as they were drawn"},
 	[EDIT_SEW] = {"PIECE EDGE PIECE EDGE SWAPPED", "sews two edges; the start of one meets "
 						       "the end of the other, or its start if "
 						       "SWAPPED is 1"},

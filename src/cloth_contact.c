@@ -171,7 +171,7 @@ static void lower_lifts(struct cloth *cloth)
 	struct cloth_scratch *s = cloth->scratch;
 	for (int v = 0; v < cloth->garment->vertex_count; v++) {
 		if (s->slack_m[v] > lift_slack_m)
-			s->lift_m[v] *= 0.8f;
+			s->lift_m[v] = float_max(0.8f * s->lift_m[v], layer_lift(cloth, v));
 		s->slack_m[v] = 1.0f;
 	}
 }

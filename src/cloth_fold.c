@@ -1,5 +1,6 @@
 /* Folds turned back, edges pushed out: the help that physics would not give (S18). */
 #include "cloth_private.h"
+#include "cloth_self.h"
 
 enum {
 	SMOOTH_ROUNDS = 20,
@@ -113,6 +114,7 @@ int cloth_unfold(struct cloth *cloth, int slice, int slices, long *units)
 	s->stale = true;
 	for (int round = 0; round < SMOOTH_ROUNDS; round++)
 		smooth(cloth);
+	cloth_self_forget(cloth, s->flipped);
 	*units += SMOOTH_ROUNDS * (long)cloth->garment->vertex_count;
 	for (int v = 0; v < cloth->garment->vertex_count; v++)
 		if (s->flipped[v] && is_particle(cloth, v)) {

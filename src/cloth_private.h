@@ -120,6 +120,12 @@ static inline unsigned allowed_parts(const struct cloth *cloth, int v)
 	return cloth->settings.filter_parts ? cloth->piece_parts[cloth->garment->piece[v]] : 0;
 }
 
+/* A garment over others lies that much farther from the body; a pile of more is no thicker. */
+static inline float layer_lift(const struct cloth *cloth, int v)
+{
+	return 0.0025f * (float)int_min(cloth->garment->layer[cloth->garment->piece[v]], 4);
+}
+
 /* Rebuilds what hangs on which vertices are one: triangles, flatness, neighbours, order, levels
  * (cloth_build.c calls the others). */
 void cloth_build(struct cloth *cloth);

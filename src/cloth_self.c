@@ -2,8 +2,12 @@
 
 static const float beyond = -0.25f;   /* least weight of a corner for a vertex to be watched */
 static const float touching = -0.05f; /* ... and to be kept off */
-static const float lost_m = 0.010f;   /* deeper, a remembered side means nothing any more */
-static const float rub = 0.2f;        /* share of the sliding of sheets on one another lost */
+static const float margin_m = 0.005f; /* what a vertex may move beside a sheet within a round */
+static const float layered_margin_m = 0.014f; /* and how deep an outer garment is found */
+static const float lost_m = 0.016f;           /* deeper, a remembered side means nothing any more */
+static const float along_body_m = 0.15f;      /* cloth so near lies along the body */
+static const float along_body = 0.5f;         /* if its normal is within 60 degrees of the body's */
+static const float rub = 0.2f; /* share of the sliding of sheets on one another lost */
 
 struct cloth_self *cloth_self_init(struct arena *arena)
 {
@@ -33,6 +37,11 @@ void cloth_self_build(struct cloth *cloth)
 	struct cloth_self *self = cloth->self;
 	size_t vertices = (size_t)cloth->garment->vertex_count;
 	self->looked = false;
+	self->margin_m = margin_m;
+	for (int p = 0; p < PIECES_MAX; p++)
+		if (cloth->garment->layer[p] > 0 &&
+		    cloth->garment->piece_first[p] < cloth->garment->piece_first[p + 1])
+			self->margin_m = layered_margin_m;
 	self->crossing_count = 0;
 	if (!cloth->welded)
 		return;
@@ -41,6 +50,13 @@ void cloth_self_build(struct cloth *cloth)
 	memset(self->trapped, 0, vertices);
 	memset(self->crossed, 0, vertices);
 	memset(self->stamp, 0xff, vertices * sizeof *self->stamp);
+}
+
+void cloth_self_forget(struct cloth *cloth, const uint8_t *flagged)
+{
+	for (int v = 0; v < cloth->garment->vertex_count; v++)
+		if (flagged[v])
+			cloth->self->pair_count[v] = 0;
 }
 
 /* ---- sides ---- */
@@ -102,12 +118,30 @@ static int remembered(const struct cloth *cloth, int t, const int *pair, int cou
 	return side;
 }
 
+/* The outer of two garments belongs in front of the inner one, wherever it lies now; 0: one
+ * garment, or a triangle that does not lie along the body (a fold, a part turned over, a hem that
+ * hangs). */
+int self_layer_side(const struct cloth *cloth, int v, int t, struct v3 normal)
+{
+	const struct garment *garment = cloth->garment;
+	const struct contact *contact = &cloth->contact[cloth->triangle[t].v[0]];
+	int own = garment->layer[garment->piece[v]];
+	int other = garment->layer[garment->triangle_piece[t]];
+	if (own == other || contact->distance_m > along_body_m ||
+	    v3_dot(contact->normal, normal) < along_body)
+		return 0;
+	return SELF_DECIDED | (own > other ? SELF_FRONT : 0);
+}
+
 /* On which side of a triangle a vertex belongs: where nothing is known it is the side on which it
  * lies, but where sheets cross that proves nothing. */
 static int side_of(const struct cloth *cloth, int v, int t, const struct over *over,
 		   const int *before, int before_count)
 {
-	int side = remembered(cloth, t, before, before_count);
+	int side = self_layer_side(cloth, v, t, over->normal);
+	if (side)
+		return side;
+	side = remembered(cloth, t, before, before_count);
 	if (side)
 		return side;
 	return (over->height > 0.0f ? SELF_FRONT : 0) |
@@ -267,9 +301,10 @@ long cloth_self(struct cloth *cloth)
 		return 0;
 	if (!cloth->self->looked)
 		units += cloth_self_look(cloth);
-	if (cloth->sweep % SELF_EVERY == 0)
+	units += keep_all_apart(cloth);
+	units += self_pull_crossings(cloth);
+	if (cloth->sweep % SELF_EVERY == 0) /* now that what can be kept apart is */
 		units += self_grid(cloth) +
 			 look(cloth, cloth->sweep / SELF_EVERY % SELF_SLICES, SELF_SLICES);
-	units += keep_all_apart(cloth);
-	return units + self_pull_crossings(cloth);
+	return units;
 }

@@ -21,6 +21,9 @@ void cloth_self_build(struct cloth *cloth);
  * where settings.thickness_m is 0. */
 long cloth_self(struct cloth *cloth);
 
+/* Forgets the sides of flagged particles: they were put elsewhere. */
+void cloth_self_forget(struct cloth *cloth, const uint8_t *flagged);
+
 /* Edges that passed through other triangles when last looked at. */
 int cloth_crossings(const struct cloth *cloth);
 

@@ -60,6 +60,7 @@ struct cloth_self {
 	int *root, *size; /* per particle, while patches are found */
 	int *vote,
 		*voters; /* 2 per particle: of zones, on sheets that face each other, and alike */
+	float margin_m;  /* a vertex is watched so far beyond the thickness */
 	bool looked;     /* at the whole cloth, once since the build */
 };
 
@@ -70,12 +71,9 @@ struct over {
 	float height, weight[3];
 };
 
-/* How near a vertex comes to be watched: beyond the thickness, what it may move within a round. */
-static const float self_margin_m = 0.005f;
-
 static inline float self_reach(const struct cloth *cloth)
 {
-	return cloth->settings.thickness_m + self_margin_m;
+	return cloth->settings.thickness_m + cloth->self->margin_m;
 }
 
 static inline void self_corners(const struct cloth *cloth, int t, struct v3 corner[3])
@@ -91,6 +89,9 @@ static inline int self_pair(const struct cloth_self *self, int v, int i)
 
 /* False: the triangle has no area. */
 bool self_look_over(const struct cloth *cloth, struct v3 p, int t, struct over *over);
+
+/* The side that the order of garments gives, as bits of a pair; 0: none. */
+int self_layer_side(const struct cloth *cloth, int v, int t, struct v3 normal);
 
 /* Sorts all placed triangles into the grid by their centres. */
 long self_grid(struct cloth *cloth);

@@ -112,6 +112,8 @@ static int decide(struct cloth *cloth, int v, int pair)
 	bool alike;
 	if (!self_look_over(cloth, cloth->position_m[v], t, &over))
 		return 4 * t;
+	if (self_layer_side(cloth, v, t, over.normal))
+		return pair;
 	int front = ballot(cloth, v, t, over.normal, &alike) * self->vote[2 * root + alike];
 	if (CLEAR_MAJORITY * int_max(front, -front) < self->voters[2 * root + alike])
 		front = 0;

@@ -21,6 +21,7 @@
 	X(EDIT_MIRROR, "mirror", "i")     /* piece: its shape becomes its mirror image */          \
 	X(EDIT_DELETE, "delete", "i")     /* piece, with its seams and marks */                    \
 	X(EDIT_SWATCH, "swatch", "ii")    /* piece swatch */                                       \
+	X(EDIT_LAYER, "layer", "ii")      /* piece, 0..9: its garment is worn over lower ones */   \
 	X(EDIT_SEW, "sew", "iiiii")       /* piece edge piece edge swapped */                      \
 	X(EDIT_UNSEW, "unsew", "i")       /* seam */                                               \
 	X(EDIT_MARK_CLOTH, "mark-cloth", "ii2") /* number piece, line in mm */                     \

@@ -50,6 +50,7 @@ const char *garment_start(struct garment_job *job, struct garment *garment,
 	if (fault)
 		return fault;
 	garment->edge_m = 0.001f * job->plan.edge_mm;
+	garment_layers(pattern, garment->layer);
 	job->done = false;
 	return NULL;
 }

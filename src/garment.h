@@ -31,10 +31,15 @@ struct garment {
 	struct seam_pair *pair;
 	int piece_first[PIECES_MAX + 1]; /* vertices of piece p: [first[p], first[p + 1]) */
 	int piece_first_triangle[PIECES_MAX + 1];
-	float edge_m; /* the edge length aimed at */
+	int layer[PIECES_MAX]; /* of a piece's garment: 0 is worn next to the body */
+	float edge_m;          /* the edge length aimed at */
 };
 
 void garment_init(struct garment *garment, struct arena *arena);
+
+/* In which order garments are worn, per piece: by the highest worn_over of their pieces, equal ones
+ * in the order of their first pieces. Pieces that hang together by seams are one garment. */
+void garment_layers(const struct pattern *pattern, int layer[PIECES_MAX]);
 
 /* The triangle of a piece that holds a local point (mm), with barycentric weights; the nearest
  * triangle when the point lies outside by less than the edge length. -1: none. */

@@ -14,8 +14,9 @@
 struct piece {
 	bool used;
 	bool inside_up;
-	int swatch; /* index into the swatch table of the face */
-	int layer;  /* drawn and picked from high to low */
+	int swatch;    /* index into the swatch table of the face */
+	int layer;     /* drawn and picked from high to low */
+	int worn_over; /* garments are worn in rising order of this */
 	char name[NAME_BYTES_MAX];
 	struct v2 position_mm; /* of the local origin on the sheet */
 	float turn_rad;

@@ -196,6 +196,7 @@ static void hash_pattern(struct hash *hash, const struct pattern *pattern)
 		hash_int(hash, piece->inside_up);
 		hash_int(hash, piece->swatch);
 		hash_int(hash, piece->layer);
+		hash_int(hash, piece->worn_over);
 		hash_float(hash, piece->position_mm.x);
 		hash_float(hash, piece->position_mm.y);
 		hash_float(hash, piece->turn_rad);

@@ -251,6 +251,17 @@ static const char *unsew(struct session *session, const struct edit *edit)
 	return NULL;
 }
 
+static const char *set_layer(struct session *session, const struct edit *edit)
+{
+	if (!piece_exists(session, edit->i[0]))
+		return no_piece;
+	if (edit->i[1] < 0 || edit->i[1] > 9)
+		return "garments are worn in layers 0 to 9";
+	undo_keep(session);
+	session->document.pattern.piece[edit->i[0]].worn_over = edit->i[1];
+	return NULL;
+}
+
 const char *session_edit_pattern(struct session *session, const struct edit *edit)
 {
 	switch (edit->kind) {
@@ -268,6 +279,8 @@ const char *session_edit_pattern(struct session *session, const struct edit *edi
 		return delete_piece(session, edit);
 	case EDIT_SWATCH:
 		return colour_piece(session, edit);
+	case EDIT_LAYER:
+		return set_layer(session, edit);
 	case EDIT_SEW:
 		return sew(session, edit);
 	case EDIT_UNSEW:

@@ -1,4 +1,5 @@
 /* One frame: a job by the frame's budget, or the worn cloth until it rests. */
+#include "cloth_self.h"
 #include "session_private.h"
 
 enum {
@@ -9,6 +10,7 @@ enum {
 	COOL_FRAMES = 90, /* after the last touch momentum begins to fade */
 	SLEEP_FRAMES = 300, /* and here the cloth goes to sleep in any case */
 	UNFOLDS_MAX = 4,    /* before it may */
+	UNTANGLES_MAX = 2,
 	PUSH_SLICES = 16,
 	STILL_SLICES = 8,  /* frames a round of looking for folds or of cleaning */
 	CLEAN_ROUNDS = 6,  /* at most; two when nothing is found */
@@ -95,12 +97,14 @@ static void note_rest(struct session *session)
 	session->clean_found = 0;
 }
 
-/* The last folds are turned back, and the cloth moves once more. */
+/* The last folds are turned back, and the cloth moves once more; also where it still passes through
+ * itself. */
 static void unfold_slice(struct session *session, int slice, long *units)
 {
-	if (session->unfolds >= UNFOLDS_MAX || is_pinned(session) ||
-	    cloth_unfold(&session->cloth, slice, STILL_SLICES, units) == 0 ||
-	    slice < STILL_SLICES - 1)
+	bool tangled = session->unfolds < UNTANGLES_MAX && cloth_crossings(&session->cloth) > 0;
+	bool folded = session->unfolds < UNFOLDS_MAX && !is_pinned(session) &&
+		      cloth_unfold(&session->cloth, slice, STILL_SLICES, units) > 0;
+	if (slice < STILL_SLICES - 1 || (!tangled && !folded))
 		return;
 	session->unfolds++;
 	session->rest_frames = session->still_frames = 0;

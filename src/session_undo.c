@@ -100,6 +100,7 @@ static void pass_state(struct stream *stream, struct session *session, struct v3
 	PASS(stream, &garment->triangle_count, 1);
 	PASS(stream, &garment->pair_count, 1);
 	PASS(stream, &garment->edge_m, 1);
+	PASS(stream, garment->layer, PIECES_MAX);
 	PASS(stream, garment->piece_first, PIECES_MAX + 1);
 	PASS(stream, garment->piece_first_triangle, PIECES_MAX + 1);
 	PASS(stream, garment->rest_m, garment->vertex_count);
