@@ -16,6 +16,10 @@ struct scan {
 	struct mesh *mesh; /* NULL in the counting pass */
 	int vertex_total;  /* of the whole file; known in the second pass */
 	int vertex_count, triangle_count;
+	bool textured;    /* every corner becomes a vertex of its own, with its texture point */
+	struct v3 *place; /* the file's vertices and texture points then */
+	struct v2 *texture;
+	int texture_total, texture_count;
 	char *fault;
 };
 
@@ -98,16 +102,78 @@ static bool read_vertex(struct scan *scan)
 			return fail(scan, "a vertex needs three finite numbers with blanks between "
 					  "and decimal points, not commas");
 	}
+	struct v3 *place = scan->textured ? scan->place
+			   : scan->mesh   ? scan->mesh->position_m
+					  : NULL;
 	if (scan->mesh)
-		scan->mesh->position_m[scan->vertex_count] = (struct v3){value[0], value[1],
-									 value[2]};
+		place[scan->vertex_count] = (struct v3){value[0], value[1], value[2]};
 	scan->vertex_count++;
 	return true;
 }
 
+/* "vt u v", perhaps with a third number. */
+static bool read_texture(struct scan *scan)
+{
+	float value[2];
+	if (scan->texture_count == MESH_VERTICES_MAX)
+		return fail(scan, "more than 4 million texture points; simplify the mesh first");
+	for (int i = 0; i < 2; i++) {
+		pass_blanks(scan);
+		if (!number_read(&scan->at, scan->end, &value[i]) || !at_separator(scan))
+			return fail(scan, "a texture point needs two finite numbers with blanks "
+					  "between and decimal points, not commas");
+	}
+	if (scan->mesh)
+		scan->texture[scan->texture_count] = (struct v2){value[0], value[1]};
+	scan->texture_count++;
+	return true;
+}
+
+/* "g name": a new group, unless the one before has no triangle. */
+static bool read_group(struct scan *scan)
+{
+	struct mesh *mesh = scan->mesh;
+	char name[NAME_BYTES_MAX] = "";
+	int length = 0;
+	pass_blanks(scan);
+	for (; !at_separator(scan); scan->at++)
+		if (length < NAME_BYTES_MAX - 1)
+			name[length++] = *scan->at;
+	if (!mesh)
+		return true;
+	if (mesh->group_count > 0 &&
+	    mesh->group[mesh->group_count - 1].triangle_first == scan->triangle_count)
+		mesh->group_count--;
+	if (mesh->group_count == PIECES_MAX)
+		return fail(scan, "more groups than a pattern may have pieces");
+	struct mesh_group *group = &mesh->group[mesh->group_count++];
+	memcpy(group->name, name, sizeof name);
+	group->triangle_first = scan->triangle_count;
+	return true;
+}
+
+/* The texture point of a corner, whose text goes on at `at`. */
+static bool read_corner_texture(struct scan *scan, const char *at, int *texture)
+{
+	bool negative = at + 1 < scan->end && at[0] == '/' && at[1] == '-';
+	long value = 0;
+	for (at += 1 + negative; at < scan->end && *at >= '0' && *at <= '9'; at++)
+		value = value > MESH_VERTICES_MAX ? value : value * 10 + (*at - '0');
+	value = negative ? scan->texture_count - value : value - 1;
+	if (value < 0 || (scan->mesh && value >= scan->texture_total))
+		return fail(scan, "a corner has no texture point; export the garment with its "
+				  "pattern as texture coordinates (v/vt)");
+	*texture = (int)value;
+	return true;
+}
+
+struct corner {
+	int vertex, texture;
+};
+
 /* The vertex of a corner "v", "v/vt", "v//vn" or "v/vt/vn" as an index from 0. Negative ones count
  * back from the last vertex so far. */
-static bool read_corner(struct scan *scan, int *vertex)
+static bool read_corner(struct scan *scan, struct corner *corner)
 {
 	bool negative = scan->at < scan->end && *scan->at == '-';
 	scan->at += negative;
@@ -117,6 +183,7 @@ static bool read_corner(struct scan *scan, int *vertex)
 		value = value > MESH_VERTICES_MAX ? value : value * 10 + (*scan->at - '0');
 	if (scan->at == digits)
 		return fail(scan, "a face needs whole numbers: v, v/vt, v//vn or v/vt/vn");
+	const char *rest = scan->at;
 	while (scan->at < scan->end && is_one_of(*scan->at, "/-0123456789"))
 		scan->at++;
 	if (!at_separator(scan))
@@ -127,55 +194,83 @@ static bool read_corner(struct scan *scan, int *vertex)
 	if (scan->mesh && (value < 0 || value >= scan->vertex_total))
 		return fail(scan, "a face names a vertex that the file does not have; export it "
 				  "again, this one is damaged");
-	*vertex = (int)value;
-	return true;
+	corner->vertex = (int)value;
+	corner->texture = 0;
+	return !scan->textured || read_corner_texture(scan, rest, &corner->texture);
+}
+
+static void put_triangle(struct scan *scan, const struct corner corner[3])
+{
+	struct triangle *triangle = &scan->mesh->triangle[scan->triangle_count];
+	for (int k = 0; k < 3; k++) {
+		int at = 3 * scan->triangle_count + k;
+		triangle->v[k] = scan->textured ? at : corner[k].vertex;
+		if (!scan->textured)
+			continue;
+		scan->mesh->position_m[at] = scan->place[corner[k].vertex];
+		scan->mesh->texture_m[at] = scan->texture[corner[k].texture];
+	}
 }
 
 /* A polygon as a fan about its first corner. A triangle that names a vertex twice has no area and
  * is left out. */
 static bool read_face(struct scan *scan)
 {
-	int first = 0, previous = 0, vertex, corner = 0;
+	struct corner fan[3] = {{0, 0}, {0, 0}, {0, 0}}; /* first, previous, this one */
+	int corner = 0;
 	for (; !at_end_of_statement(scan); corner++) {
-		if (!read_corner(scan, &vertex))
+		if (!read_corner(scan, &fan[2]))
 			return false;
 		if (corner == 0)
-			first = vertex;
-		bool flat = first == previous || previous == vertex || vertex == first;
+			fan[0] = fan[2];
+		bool flat = fan[0].vertex == fan[1].vertex || fan[1].vertex == fan[2].vertex ||
+			    fan[2].vertex == fan[0].vertex;
 		if (corner >= 2 && !flat) {
 			if (scan->triangle_count == MESH_TRIANGLES_MAX)
 				return fail(scan, "more than 8 million triangles; simplify the "
 						  "mesh first");
 			if (scan->mesh)
-				scan->mesh->triangle[scan->triangle_count] = (struct triangle){
-					{first, previous, vertex}};
+				put_triangle(scan, fan);
 			scan->triangle_count++;
 		}
-		previous = vertex;
+		fan[1] = fan[2];
 	}
 	return corner >= 3 ? true : fail(scan, "a face needs at least three corners");
 }
 
-/* Is the statement's keyword this letter? Steps over it. */
-static bool keyword(struct scan *scan, char letter)
+/* Is this the statement's keyword? Steps over it. */
+static bool keyword(struct scan *scan, const char *word)
 {
-	if (scan->end - scan->at < 2 || scan->at[0] != letter)
+	size_t length = strlen(word);
+	if ((size_t)(scan->end - scan->at) <= length || memcmp(scan->at, word, length) != 0)
 		return false;
-	char next = scan->at[1];
+	char next = scan->at[length];
 	if (next != ' ' && next != '\t' && next != '\\')
 		return false;
-	scan->at++;
+	scan->at += length;
+	return true;
+}
+
+static bool read_statement(struct scan *scan)
+{
+	if (keyword(scan, "v"))
+		return read_vertex(scan);
+	if (keyword(scan, "f"))
+		return read_face(scan);
+	if (scan->textured && keyword(scan, "vt"))
+		return read_texture(scan);
+	if (scan->textured && (keyword(scan, "g") || keyword(scan, "o")))
+		return read_group(scan);
 	return true;
 }
 
 static bool read_pass(struct scan *scan)
 {
-	scan->vertex_count = scan->triangle_count = 0;
+	scan->vertex_count = scan->triangle_count = scan->texture_count = 0;
 	scan->line = scan->line_next = 1;
 	while (scan->at < scan->end) {
 		pass_blanks(scan);
-		if (keyword(scan, 'v') ? !read_vertex(scan)
-				       : keyword(scan, 'f') && !read_face(scan))
+		if (!read_statement(scan))
 			return false;
 		pass_statement(scan);
 	}
@@ -194,7 +289,31 @@ static const char *encoding_fault(const char *text, size_t size)
 	return NULL;
 }
 
-bool format_obj_read(struct mesh *mesh, const char *text, size_t size, char fault[200])
+static bool take_memory(struct scan *scan, struct mesh *mesh)
+{
+	int vertices = scan->vertex_count;
+	if (scan->textured) {
+		vertices = 3 * scan->triangle_count;
+		scan->place = calloc((size_t)scan->vertex_count, sizeof *scan->place);
+		scan->texture = calloc((size_t)scan->texture_count + 1, sizeof *scan->texture);
+	}
+	return (!scan->textured ||
+		(scan->place && scan->texture && vertices <= MESH_VERTICES_MAX)) &&
+	       mesh_take(mesh, vertices, scan->triangle_count, scan->textured);
+}
+
+/* The triangles of a group go on to where the next one begins. */
+static void close_groups(struct mesh *mesh)
+{
+	for (int g = 0; g < mesh->group_count; g++) {
+		int end = g + 1 < mesh->group_count ? mesh->group[g + 1].triangle_first
+						    : mesh->triangle_count;
+		mesh->group[g].triangle_count = end - mesh->group[g].triangle_first;
+	}
+}
+
+static bool read_obj(struct mesh *mesh, const char *text, size_t size, bool textured,
+		     char fault[200])
 {
 	memset(mesh, 0, sizeof *mesh);
 	const char *wrong = encoding_fault(text, size);
@@ -203,7 +322,7 @@ bool format_obj_read(struct mesh *mesh, const char *text, size_t size, char faul
 		return false;
 	}
 	const char *begin = size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? text + 3 : text;
-	struct scan scan = {.at = begin, .end = text + size, .fault = fault};
+	struct scan scan = {.at = begin, .end = text + size, .fault = fault, .textured = textured};
 	if (!read_pass(&scan))
 		return false;
 	if (scan.vertex_count == 0 || scan.triangle_count == 0) {
@@ -212,19 +331,32 @@ bool format_obj_read(struct mesh *mesh, const char *text, size_t size, char faul
 			 "an OBJ body needs both, as lines that begin with v and f");
 		return false;
 	}
-	if (!mesh_take(mesh, scan.vertex_count, scan.triangle_count, false)) {
+	bool taken = take_memory(&scan, mesh);
+	if (!taken)
 		snprintf(fault, 200, "not enough memory for %d vertices; simplify the mesh first",
 			 scan.vertex_count);
-		return false;
-	}
 	scan.at = begin;
 	scan.mesh = mesh;
 	scan.vertex_total = scan.vertex_count;
-	if (!read_pass(&scan)) {
+	scan.texture_total = scan.texture_count;
+	bool read = taken && read_pass(&scan);
+	if (read)
+		close_groups(mesh);
+	else
 		mesh_free(mesh);
-		return false;
-	}
-	return true;
+	free(scan.place);
+	free(scan.texture);
+	return read;
+}
+
+bool format_obj_read(struct mesh *mesh, const char *text, size_t size, char fault[200])
+{
+	return read_obj(mesh, text, size, false, fault);
+}
+
+bool format_obj_read_garment(struct mesh *mesh, const char *text, size_t size, char fault[200])
+{
+	return read_obj(mesh, text, size, true, fault);
 }
 
 /* ---- writing ---- */

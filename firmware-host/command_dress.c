@@ -2,6 +2,7 @@
 #include "commands.h"
 
 #include "character.h"
+#include "drape_file.h"
 #include "garment_file.h"
 #include "journal_file.h"
 #include "options.h"
@@ -19,9 +20,10 @@ enum { PICTURE_WIDTH = 1280, PICTURE_HEIGHT = 720, PROGRESS_FRAMES = 30 };
 static const char usage[] =
 	"usage: kitsuke dress JOURNAL [--obj FILE] [--glb FILE] [--picture FILE] [--report FILE]\n"
 	"                     [--body FILE|mannequin] [--body-obj FILE] [--bones FILE]\n"
-	"                     [--bones-out FILE] [--progress]\n";
+	"                     [--bones-out FILE] [--start OBJ] [--progress]\n";
 
 struct dresser {
+	const char *start; /* a drape that stands for the first wrap */
 	const char *journal, *obj, *glb, *picture, *report, *body, *body_obj, *bones, *bones_out;
 	bool progress;
 	void *memory;
@@ -105,6 +107,26 @@ static void run_frame(struct dresser *dresser)
 	show_progress(dresser, false);
 }
 
+/* The first wrap takes the drape of --start instead of laying the garment by its marks. */
+static bool start_drape(struct dresser *dresser)
+{
+	struct session *session = dresser->session;
+	const char *wrong = session_mesh(session);
+	if (wrong) {
+		snprintf(dresser->fault, FAULT_BYTES, "%.250s: %s", dresser->journal, wrong);
+		return false;
+	}
+	while (session->job != JOB_NONE)
+		run_frame(dresser);
+	struct v3 *position_m = calloc(GARMENT_VERTICES_MAX, sizeof *position_m);
+	bool read = position_m && drape_read(session, dresser->start, position_m, dresser->fault);
+	if (read)
+		session_drape(session, position_m);
+	free(position_m);
+	dresser->start = NULL;
+	return read;
+}
+
 /* STEP, WORN and SETTLE are taken apart into frames, so that each can be timed and shown. */
 static bool apply(struct dresser *dresser, const struct edit *edit)
 {
@@ -150,6 +172,8 @@ static bool take_edit(struct dresser *dresser, const struct journal_file *file)
 	if (!dresser->body_name[0] && edit->kind != EDIT_BUDGET &&
 	    !put_body(dresser, CHARACTER_MANNEQUIN))
 		return false;
+	if (edit->kind == EDIT_WRAP && dresser->start)
+		return start_drape(dresser);
 	if (!apply(dresser, edit))
 		note_refusal(dresser, file);
 	return true;
@@ -250,6 +274,7 @@ int command_dress(int argc, char **argv)
 	const struct option_value known[] = {
 		{"--obj", NULL, &dresser.obj, NULL},
 		{"--glb", NULL, &dresser.glb, NULL},
+		{"--start", NULL, &dresser.start, NULL},
 		{"--picture", NULL, &dresser.picture, NULL},
 		{"--report", NULL, &dresser.report, NULL},
 		{"--body", NULL, &dresser.body, NULL},

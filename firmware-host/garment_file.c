@@ -28,7 +28,7 @@ static void name_group(struct mesh *mesh, int g, const char *piece_name, int pie
 		}
 }
 
-static void list_groups(struct mesh *mesh, const struct session *session)
+void garment_groups(struct mesh *mesh, const struct session *session)
 {
 	const struct garment *garment = &session->garment;
 	for (int p = 0; p < PIECES_MAX; p++) {
@@ -69,7 +69,7 @@ static bool make_mesh(struct mesh *mesh, const struct session *session)
 	}
 	memcpy(mesh->triangle, garment->triangle,
 	       (size_t)garment->triangle_count * sizeof *mesh->triangle);
-	list_groups(mesh, session);
+	garment_groups(mesh, session);
 	return true;
 }
 

@@ -2,8 +2,12 @@
 #ifndef GARMENT_FILE_H
 #define GARMENT_FILE_H
 
+#include "mesh.h"
 #include "session.h"
 #include "store.h"
+
+/* The groups of the file, a piece each: names, and runs of the garment's vertices and triangles. */
+void garment_groups(struct mesh *mesh, const struct session *session);
 
 /* Writes what lies on the body: metres, normals out, a group per piece, texture coordinates =
  * pattern coordinates in metres. Vertices are split at seams, where both sides stand at the same

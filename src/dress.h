@@ -48,6 +48,13 @@ void wrap_init(struct wrap *wrap, struct arena *arena);
  * Returns false, with diagnoses, when no pair of marks exists: the cloth is left untouched. */
 bool wrap_start(struct wrap *wrap, struct cloth *cloth, const struct marks *marks);
 
+/* Begins at the end instead: the cloth takes these places (one a garment vertex, finite), from
+ * wherever they come, and what is wrong with them is mended: size, sides, cloth inside the body;
+ * then seams close, folds turn back, and cloth comes out of cloth. What was done, and what it could
+ * not mend, are diagnoses. */
+void wrap_from(struct wrap *wrap, struct cloth *cloth, const struct marks *marks,
+	       const struct v3 *position_m);
+
 /* Spends up to `quota` units (at least one sweep) and returns them. Stage WRAP_DONE: cloth->worn.
  */
 long wrap_advance(struct wrap *wrap, long quota);

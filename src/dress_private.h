@@ -19,6 +19,7 @@ struct wrap_scratch {
 	int *edge_first;    /* per vertex + 1: triangles on edges whose lower vertex it is */
 	int *edge_triangle; /* triangle * 3 + corner */
 	float along_m[MARK_POINTS_MAX];
+	bool from_drape;           /* no marks laid it */
 	int partner[MARK_NUMBERS]; /* per cloth mark's number: the body mark's; 0: let go */
 	bool mended;               /* marks were let go or swapped */
 	bool disagree;             /* the marks were found to pull seams apart */
@@ -84,6 +85,9 @@ int wrap_grow_ring(struct wrap *wrap);
 /* A line of `count` points drawn by hand, steadied, into `steady` (not the same array). length_m 0:
  * measured on the line itself. */
 void wrap_steady_line(const struct v3 *point, int count, float length_m, struct v3 *steady);
+
+/* Brings a drape from elsewhere to size, right side out and out of the body (dress_start.c). */
+void wrap_mend_start(struct wrap *wrap);
 
 /* Adds a diagnosis; `text` may hold %1 and %2 for the marks' numbers. Full: it is dropped. */
 void wrap_diagnose(struct wrap *wrap, const char *kind, int mark_1, int mark_2, const char *text);

@@ -1,6 +1,7 @@
 /* Wrap: the garment is laid on the body so that equal-numbered marks meet (S8, S13, S14). A job of
  * stages; every stage is a number of sweeps with its own settings. wrap_advance is its table of
  * contents. */
+#include "cloth_self.h"
 #include "dress_private.h"
 
 enum {
@@ -101,16 +102,38 @@ static bool lay_marks(struct wrap *wrap)
 	return true;
 }
 
-bool wrap_start(struct wrap *wrap, struct cloth *cloth, const struct marks *marks)
+static void begin(struct wrap *wrap, struct cloth *cloth, const struct marks *marks)
 {
 	wrap->cloth = cloth;
 	wrap->marks = marks;
 	wrap->frames = 0;
 	wrap->mark_error_rms_m = wrap->mark_error_max_m = 0.0f;
 	memset(&wrap->diagnoses, 0, sizeof wrap->diagnoses);
-	wrap->scratch->mended = false;
+	wrap->scratch->mended = wrap->scratch->from_drape = false;
 	for (int number = 0; number < MARK_NUMBERS; number++)
 		wrap->scratch->partner[number] = number;
+}
+
+void wrap_from(struct wrap *wrap, struct cloth *cloth, const struct marks *marks,
+	       const struct v3 *position_m)
+{
+	begin(wrap, cloth, marks);
+	wrap->scratch->rounds = 0;
+	wrap->scratch->disagree = false;
+	wrap->scratch->from_drape = wrap->scratch->mended = true;
+	cloth->settings = growing();
+	for (int v = 0; v < cloth->garment->vertex_count; v++) {
+		cloth->position_m[v] = position_m[v];
+		cloth->placed[v] = 1;
+	}
+	wrap_mend_start(wrap);
+	enter(wrap, WRAP_CLOSE, closing());
+	wrap->progress = CLOSE_SWEEPS + 1;
+}
+
+bool wrap_start(struct wrap *wrap, struct cloth *cloth, const struct marks *marks)
+{
+	begin(wrap, cloth, marks);
 	if (!lay_marks(wrap)) {
 		wrap_diagnose(wrap, "no-marks", 0, 0,
 			      "No mark on the cloth has a partner on the body.");
@@ -263,6 +286,18 @@ static long unfold(struct wrap *wrap)
 	return units + cloth_sweep(cloth);
 }
 
+/* What a drape from elsewhere still has wrong with it. */
+static void diagnose_left(struct wrap *wrap, bool inside)
+{
+	if (inside)
+		wrap_diagnose(wrap, "start-inside", 0, 0,
+			      "Some of the drape still passes through the body; wrap it by marks.");
+	if (cloth_crossings(wrap->cloth) > 0)
+		wrap_diagnose(wrap, "start-tangled", 0, 0,
+			      "The drape still passes through itself in places; press RELAX, or "
+			      "wrap it by marks.");
+}
+
 static long settle(struct wrap *wrap)
 {
 	struct cloth *cloth = wrap->cloth;
@@ -274,6 +309,8 @@ static long settle(struct wrap *wrap)
 	if (after < PUSH_ROUNDS && cloth_push_out(cloth, 0, 1, &units) > 0)
 		return units + cloth_sweep(cloth);
 	wrap_check(wrap);
+	if (wrap->scratch->from_drape)
+		diagnose_left(wrap, after == PUSH_ROUNDS);
 	wrap->stage = WRAP_DONE;
 	cloth->worn = true;
 	return units + 1;

@@ -64,12 +64,29 @@ const char *session_wrap(struct session *session)
 	session_release(session);
 	session->relaxing = false;
 	session->job = JOB_NONE;
+	session->drapes = false;
 	cloth_reset(&session->cloth, NULL, &session->body);
 	const char *fault = garment_start(session->mesher, &session->garment,
 					  &session->document.pattern, session->vertices_wanted);
 	if (!fault)
 		session->job = JOB_MESH;
 	return fault;
+}
+
+const char *session_mesh(struct session *session)
+{
+	const char *fault = session_wrap(session);
+	session->drapes = !fault;
+	return fault;
+}
+
+void session_drape(struct session *session, const struct v3 *position_m)
+{
+	MUST(session->drapes && session->job == JOB_NONE);
+	session->drapes = false;
+	cloth_reset(&session->cloth, &session->garment, &session->body);
+	wrap_from(&session->wrap, &session->cloth, &session->document.marks, position_m);
+	session->job = JOB_WRAP;
 }
 
 void session_resume(struct session *session, bool wrapping)

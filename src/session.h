@@ -42,6 +42,7 @@ struct session {
 	int pause_frames;     /* so long since it last pulled the cloth somewhere else */
 	bool relaxing;        /* RELAX is held */
 	enum session_job job;
+	bool drapes; /* what is meshed takes its places from elsewhere */
 	struct garment_job *mesher;
 	struct undo *undo;
 	int undo_count, redo_count; /* steps that can be taken */
@@ -68,6 +69,13 @@ void session_init(struct session *session, struct arena *arena);
 /* Applies one edit. False: refused, and session->notice says why; nothing has changed. STEP and
  * SETTLE advance frames; all others are immediate. */
 bool session_apply(struct session *session, const struct edit *edit);
+
+/* A garment from elsewhere instead of a wrap: session_mesh begins to mesh the pattern; once a few
+ * frames later job is JOB_NONE, session_drape takes a place for every vertex of session->garment
+ * and mends what is wrong with them as a JOB_WRAP. Returns NULL or why the pattern makes no cloth.
+ */
+const char *session_mesh(struct session *session);
+void session_drape(struct session *session, const struct v3 *position_m);
 
 /* One frame: long jobs advance by the budget, or the cloth moves by it. */
 void session_advance(struct session *session);

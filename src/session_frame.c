@@ -41,8 +41,9 @@ static long advance_mesh(struct session *session)
 	if (!done || units > 0)
 		return units;
 	cloth_reset(&session->cloth, &session->garment, &session->body);
-	session->job = JOB_WRAP;
-	if (!wrap_start(&session->wrap, &session->cloth, &session->document.marks))
+	session->job = session->drapes ? JOB_NONE : JOB_WRAP;
+	if (!session->drapes &&
+	    !wrap_start(&session->wrap, &session->cloth, &session->document.marks))
 		session->job = JOB_NONE;
 	return BUILD_UNITS * (long)session->garment.vertex_count;
 }
