@@ -1,5 +1,5 @@
-/* Surface drag and pins: a tube turned round the trunk, and a T-shirt pulled, fenced in and rolled
- * up. Motions in mm. */
+/* Surface drag and pins: a tube turned round the trunk, a T-shirt pulled, fenced in and rolled up,
+ * a poncho pulled over the shoulder. Motions in mm. */
 #include "scene.h"
 #include "test.h"
 
@@ -307,6 +307,32 @@ static void check_roll_up(struct scene *scene, const struct worn *worn)
 	}
 }
 
+/* A poncho's front pulled up to the shoulder: its back goes down behind, because the motion turns
+ * with the body over the shoulder. */
+static void check_over_shoulder(struct scene *scene)
+{
+	CHECK(edit(scene, EDIT_CLEAR, 0, 0.0f, 0.0f, 0.0f));
+	CHECK(scene_play(scene, "tests/journals/poncho.kitsuke") == 0);
+	CHECK(scene_wrap(scene));
+	frames(scene, 200);
+	struct v3 way[9], back = place(scene, 1, -150.0f, -200.0f);
+	for (int i = 0; i < COUNT_OF(way); i++)
+		way[i] = place(scene, 0, 150.0f, -200.0f + 20.0f * (float)i);
+	CHECK(edit(scene, EDIT_GRAB, 0, 150.0f, -200.0f, 0.0f));
+	for (int i = 0; i < COUNT_OF(way); i++) {
+		CHECK(edit(scene, EDIT_DRAG, 0, way[i].x, way[i].y, way[i].z));
+		frames(scene, 4);
+	}
+	struct figures held = figures_of(scene);
+	float up_mm = mm(place(scene, 0, 150.0f, -200.0f).y - way[0].y);
+	float down_mm = mm(back.y - place(scene, 1, -150.0f, -200.0f).y);
+	printf("over the shoulder: front up %.1f mm, back down %.1f; strain p95 %.3f held\n",
+	       (double)up_mm, (double)down_mm, (double)held.strain_p95);
+	CHECK(up_mm > 60.0f && down_mm > 20.0f);
+	CHECK(held.inside == 0 && held.strain_p95 < 0.05f);
+	CHECK(edit(scene, EDIT_RELEASE, 0, 0.0f, 0.0f, 0.0f));
+}
+
 int main(void)
 {
 	static struct worn worn;
@@ -325,6 +351,7 @@ int main(void)
 	check_tracking(scene, &worn);
 	check_fence(scene, &worn);
 	check_roll_up(scene, &worn);
+	check_over_shoulder(scene);
 	scene_close(scene);
 	return test_end();
 }
