@@ -100,7 +100,7 @@ void drag_begin(struct drag *drag, struct cloth *cloth, const struct pin *pins, 
 
 /* Moves the grabbed point towards target_m (in space; the way is laid along the body's surface), at
  * most DRAG_STEP_MAX_MM in one call, and everything that depends on it. Returns units spent. */
-enum { DRAG_STEP_MAX_MM = 10 };
+enum { DRAG_STEP_MAX_MM = 12 };
 long drag_move(struct drag *drag, struct v3 target_m);
 void drag_end(struct drag *drag);
 
