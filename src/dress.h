@@ -28,6 +28,7 @@ enum wrap_stage {
 	WRAP_WELD,   /* sewn vertices become one */
 	WRAP_UNFOLD, /* folds are turned back */
 	WRAP_SETTLE, /* gravity; contact at midpoints and centres; last clean-up */
+	WRAP_MOVE,   /* instead of all before WRAP_SETTLE: worn cloth goes to new marks */
 	WRAP_DONE,
 };
 
@@ -54,6 +55,11 @@ bool wrap_start(struct wrap *wrap, struct cloth *cloth, const struct marks *mark
  * not mend, are diagnoses. */
 void wrap_from(struct wrap *wrap, struct cloth *cloth, const struct marks *marks,
 	       const struct v3 *position_m);
+
+/* Begins to move a worn cloth so that the marks with these numbers meet (S9). False: none has a
+ * partner; nothing has changed. */
+bool wrap_move(struct wrap *wrap, struct cloth *cloth, const struct marks *marks,
+	       const bool fresh[MARK_NUMBERS]);
 
 /* Spends up to `quota` units (at least one sweep) and returns them. Stage WRAP_DONE: cloth->worn.
  */

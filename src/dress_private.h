@@ -5,10 +5,7 @@
 #include "cloth_private.h"
 #include "dress.h"
 
-enum {
-	PART_NONE = -1,     /* a home nowhere on the body */
-	MARK_NUMBERS = 100, /* marks are numbered from 1 to 99 */
-};
+enum { PART_NONE = -1 }; /* a home nowhere on the body */
 
 struct wrap_scratch {
 	int8_t home[PIECES_MAX];   /* enum body_part that the piece belongs to, or PART_NONE */
@@ -22,6 +19,8 @@ struct wrap_scratch {
 	bool from_drape;           /* no marks laid it */
 	int partner[MARK_NUMBERS]; /* per cloth mark's number: the body mark's; 0: let go */
 	bool mended;               /* marks were let go or swapped */
+	bool aiming;               /* marks only aim worn cloth, they don't lay it */
+	float off_m;               /* how far it was at the last look */
 	bool disagree;             /* the marks were found to pull seams apart */
 	int rounds;                /* folds turned back so far */
 	struct v3 mark_point_m[MARK_POINTS_MAX], mark_normal[MARK_POINTS_MAX];
@@ -31,6 +30,15 @@ struct wrap_scratch {
 
 /* Puts the triangles under the marks on the body (dress_seed.c). Returns the vertices seeded. */
 int wrap_seed(struct wrap *wrap);
+
+/* Says which marks have no partner or run the wrong way. */
+void wrap_diagnose_marks(struct wrap *wrap);
+
+/* Gives worn cloth under the marks their places as goals. Returns the vertices that have one. */
+int wrap_aim(struct wrap *wrap);
+
+/* Every few sweeps of WRAP_MOVE: is the cloth there, or as near as it comes? (dress_move.c) */
+bool wrap_has_moved(struct wrap *wrap);
 
 /* The body's mark that belongs to the cloth's mark of that number; NULL: none. */
 const struct body_mark *wrap_partner(const struct wrap *wrap, int number);

@@ -200,6 +200,20 @@ static bool can_grow(const struct cloth *cloth, int piece)
 	return false;
 }
 
+/* A vertex goes to its place at once, or aims at it. */
+static void lay(struct wrap *wrap, int v, struct v3 place_m)
+{
+	struct cloth *cloth = wrap->cloth;
+	int at = cloth->particle[v];
+	cloth->goal_m[at] = place_m;
+	cloth->held[at] = 1;
+	if (wrap->scratch->aiming)
+		return;
+	cloth->position_m[at] = cloth->previous_m[at] = place_m;
+	cloth->placed[at] = 1;
+	cloth_look(cloth, at);
+}
+
 static int seed_mark(struct wrap *wrap, const struct cloth_mark *mark, const struct body_mark *on,
 		     float wide)
 {
@@ -224,11 +238,7 @@ static int seed_mark(struct wrap *wrap, const struct cloth_mark *mark, const str
 			continue;
 		if (!can_lie(wrap, mark->piece, on->point_count, along_m * share))
 			continue;
-		cloth->goal_m[v] = place_on_body(wrap, on->point_count, along_m * share, lateral_m);
-		cloth->position_m[v] = cloth->previous_m[v] = cloth->goal_m[v];
-		cloth->placed[v] = 1;
-		cloth->held[v] = 1;
-		cloth_look(cloth, v);
+		lay(wrap, v, place_on_body(wrap, on->point_count, along_m * share, lateral_m));
 		seeds++;
 	}
 	wrap->scratch->seeded[mark->piece] |= seeds > 0;
@@ -322,15 +332,19 @@ static void choose_drawn(struct wrap *wrap)
 	}
 }
 
-int wrap_seed(struct wrap *wrap)
+void wrap_diagnose_marks(struct wrap *wrap)
 {
-	const struct marks *marks = wrap->marks;
+	diagnose_lonely(wrap);
+	diagnose_directions(wrap);
+}
+
+static int seed_marks(struct wrap *wrap)
+{
 	int seeds = 0;
-	memset(wrap->scratch->seeded, 0, PIECES_MAX);
 	wrap_find_homes(wrap);
 	wrap_measure_limbs(wrap);
 	for (int m = 0; m < MARKS_MAX; m++) {
-		const struct cloth_mark *mark = &marks->cloth[m];
+		const struct cloth_mark *mark = &wrap->marks->cloth[m];
 		const struct body_mark *on = mark->used ? wrap_partner(wrap, mark->number) : NULL;
 		if (!on || mark->point_count < 2 || on->point_count < 2)
 			continue;
@@ -338,12 +352,24 @@ int wrap_seed(struct wrap *wrap)
 		if (!can_grow(wrap->cloth, mark->piece))
 			seeds += seed_mark(wrap, mark, on, rim_width);
 	}
-	choose_drawn(wrap);
-	if (!wrap->scratch->mended) {
-		diagnose_lonely(wrap);
-		diagnose_directions(wrap);
-	}
 	return seeds;
+}
+
+int wrap_seed(struct wrap *wrap)
+{
+	wrap->scratch->aiming = false;
+	memset(wrap->scratch->seeded, 0, PIECES_MAX);
+	int seeds = seed_marks(wrap);
+	choose_drawn(wrap);
+	if (!wrap->scratch->mended)
+		wrap_diagnose_marks(wrap);
+	return seeds;
+}
+
+int wrap_aim(struct wrap *wrap)
+{
+	wrap->scratch->aiming = true;
+	return seed_marks(wrap);
 }
 
 int wrap_piece_mark(const struct wrap *wrap, int piece)

@@ -316,6 +316,17 @@ static long settle(struct wrap *wrap)
 	return units + 1;
 }
 
+static long move(struct wrap *wrap)
+{
+	if (wrap_has_moved(wrap)) {
+		memset(wrap->cloth->held, 0, (size_t)wrap->cloth->garment->vertex_count);
+		enter(wrap, WRAP_SETTLE, settling());
+		return 1;
+	}
+	wrap->progress++;
+	return cloth_sweep(wrap->cloth);
+}
+
 static bool is_running(const struct wrap *wrap)
 {
 	return wrap->stage != WRAP_DONE && wrap->stage != WRAP_IDLE;
@@ -334,6 +345,8 @@ long wrap_advance(struct wrap *wrap, long quota)
 			units += weld(wrap);
 		else if (wrap->stage == WRAP_UNFOLD)
 			units += unfold(wrap);
+		else if (wrap->stage == WRAP_MOVE)
+			units += move(wrap);
 		else if (wrap->stage == WRAP_SETTLE)
 			units += settle(wrap);
 	} while (units < quota && is_running(wrap));

@@ -5,6 +5,8 @@
 #include "limits.h"
 #include "vec.h"
 
+enum { MARK_NUMBERS = 100 }; /* marks are numbered from 1 to 99 */
+
 struct cloth_mark {
 	bool used;
 	int number; /* 1.. */

@@ -20,10 +20,18 @@ enum session_job {
 	JOB_WRAP, /* the garment is growing on the body */
 };
 
+/* What the worn garment was made of: hashes of the pattern's shapes and seams, and per number of
+ * both lines of a mark. So a wrap knows what is new. */
+struct worn_as {
+	uint64_t pattern;
+	uint64_t mark[MARK_NUMBERS];
+};
+
 /* What undo brings back (the cloth's state lies beside it). */
 struct document {
 	struct pattern pattern;
 	struct marks marks;
+	struct worn_as worn_as;
 	struct pin pin[PINS_MAX];
 	int fabric; /* fabric_at */
 };

@@ -150,17 +150,94 @@ static bool marks_pair(const struct marks *marks)
 	return false;
 }
 
+/* Shapes and seams; where pieces lie on the sheet does not matter. */
+static uint64_t hash_shapes(const struct pattern *pattern)
+{
+	struct hash hash;
+	hash_init(&hash);
+	for (int p = 0; p < PIECES_MAX; p++) {
+		const struct piece *piece = &pattern->piece[p];
+		hash_int(&hash, piece->used);
+		for (int i = 0; piece->used && i < piece->point_count; i++) {
+			hash_float(&hash, piece->point_mm[i].x);
+			hash_float(&hash, piece->point_mm[i].y);
+			hash_int(&hash, piece->corner[i]);
+		}
+	}
+	for (int s = 0; s < SEAMS_MAX; s++) {
+		const struct seam *seam = &pattern->seam[s];
+		hash_int(&hash, seam->used);
+		if (!seam->used)
+			continue;
+		hash_int(&hash, seam->swapped);
+		hash_int(&hash, seam->a.piece * 1000 + seam->a.edge);
+		hash_int(&hash, seam->b.piece * 1000 + seam->b.edge);
+	}
+	return hash.value;
+}
+
+/* Both lines of a pair of marks. */
+static uint64_t hash_pair(const struct cloth_mark *cloth, const struct body_mark *body)
+{
+	struct hash hash;
+	hash_init(&hash);
+	hash_int(&hash, cloth->piece);
+	for (int i = 0; i < cloth->point_count; i++) {
+		hash_float(&hash, cloth->point_mm[i].x);
+		hash_float(&hash, cloth->point_mm[i].y);
+	}
+	for (int i = 0; i < body->point_count; i++) {
+		hash_float(&hash, body->point_m[i].x);
+		hash_float(&hash, body->point_m[i].y);
+		hash_float(&hash, body->point_m[i].z);
+	}
+	return hash.value;
+}
+
+static struct worn_as worn_as_of(const struct document *document)
+{
+	const struct marks *marks = &document->marks;
+	struct worn_as now = {.pattern = hash_shapes(&document->pattern)};
+	for (int a = 0; a < MARKS_MAX; a++)
+		for (int b = 0; marks->cloth[a].used && b < MARKS_MAX; b++)
+			if (marks->body[b].used && marks->body[b].number == marks->cloth[a].number)
+				now.mark[marks->cloth[a].number] = hash_pair(&marks->cloth[a],
+									     &marks->body[b]);
+	return now;
+}
+
+/* A garment that is worn, and only marks are new: it moves (S9). */
+static bool move_garment(struct session *session, const struct worn_as *now)
+{
+	const struct worn_as *before = &session->document.worn_as;
+	bool fresh[MARK_NUMBERS], any = false;
+	for (int number = 0; number < MARK_NUMBERS; number++) {
+		fresh[number] = now->mark[number] && now->mark[number] != before->mark[number];
+		any |= fresh[number];
+	}
+	if (!any || !session->cloth.worn || session->job != JOB_NONE ||
+	    now->pattern != before->pattern ||
+	    !wrap_move(&session->wrap, &session->cloth, &session->document.marks, fresh))
+		return false;
+	session->job = JOB_WRAP;
+	return true;
+}
+
 /* A pattern that can't be meshed leaves everything as it was, the worn garment included. */
 static const char *wrap_garment(struct session *session)
 {
+	struct worn_as now;
 	if (!marks_pair(&session->document.marks))
 		return "draw a line on the cloth and its partner on the body first";
 	session_release(session);
 	undo_keep(session);
 	memset(session->document.pin, 0, sizeof session->document.pin);
-	const char *fault = session_wrap(session);
+	now = worn_as_of(&session->document);
+	const char *fault = move_garment(session, &now) ? NULL : session_wrap(session);
 	if (fault)
 		undo_cancel(session);
+	else
+		session->document.worn_as = now;
 	return fault;
 }
 

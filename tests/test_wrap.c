@@ -114,6 +114,49 @@ static void test_tshirt(void)
 	check_worn_right();
 }
 
+/* A mark drawn on the worn shirt and 30 mm beside its place on the body: the shirt itself moves
+ * there, and wears as well as before (S9). */
+static void test_move(void)
+{
+	static struct edit edit;
+	memset(&edit, 0, sizeof edit);
+	edit.kind = EDIT_MARK_CLOTH;
+	edit.i[0] = 9;
+	edit.point_count = 12;
+	for (int i = 0; i < edit.point_count; i++)
+		edit.point[i] = (struct v3){0.0f, -150.0f - 20.0f * (float)i, 0.0f};
+	apply(&edit);
+	int v = 0;
+	for (int i = 0; i < edit.point_count; i++) {
+		float weight[3];
+		struct v2 at_mm = {0.0f, -150.0f - 20.0f * (float)i};
+		int at = garment_locate(&session.garment, 0, at_mm, weight);
+		CHECK(at >= 0);
+		v = session.garment.triangle[at].v[0];
+		edit.point[i] = session.cloth.position_m[v];
+		edit.point[i].x += 0.03f;
+	}
+	float before = session.cloth.position_m[v].x;
+	edit.kind = EDIT_MARK_BODY;
+	apply(&edit);
+	apply_kind(EDIT_WRAP);
+	CHECK(session.job == JOB_WRAP && session.cloth.worn && session.wrap.stage == WRAP_MOVE);
+	for (int i = 0; i < 2000 && session.wrap.stage == WRAP_MOVE; i++)
+		session_advance(&session);
+	CHECK(session.wrap.mark_error_rms_m < 0.01f);
+	CHECK(session.cloth.position_m[v].x - before > 0.02f);
+	for (int i = 0; i < 2000 && session.job != JOB_NONE; i++)
+		session_advance(&session);
+	CHECK(session.job == JOB_NONE);
+	for (int i = 0; i < 360; i++)
+		session_advance(&session);
+	measure_garment(&measure, &session.cloth, scratch);
+	check_worn_right();
+	/* nothing new: the next wrap begins anew */
+	apply_kind(EDIT_WRAP);
+	CHECK(session.job == JOB_MESH);
+}
+
 /* Ten seconds kept awake: the garment neither creeps nor tangles, and hardly moves in the end. */
 static void test_holds(void)
 {
@@ -256,6 +299,8 @@ int main(void)
 	CHECK(body_find_parts(&session.body));
 	test_tshirt();
 	test_holds();
+	test_tshirt();
+	test_move();
 	test_unsteady_hands();
 	test_any_quota();
 	test_contradiction();
