@@ -30,7 +30,7 @@ bool wrap_move(struct wrap *wrap, struct cloth *cloth, const struct marks *marks
 	wrap->cloth = cloth;
 	wrap->marks = marks;
 	wrap->frames = 0;
-	wrap->scratch->mended = false;
+	wrap->scratch->from_drape = wrap->scratch->mended = false;
 	memset(&wrap->diagnoses, 0, sizeof wrap->diagnoses);
 	for (int number = 0; number < MARK_NUMBERS; number++)
 		wrap->scratch->partner[number] = number;

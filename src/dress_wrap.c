@@ -122,6 +122,7 @@ void wrap_from(struct wrap *wrap, struct cloth *cloth, const struct marks *marks
 	wrap->scratch->disagree = false;
 	wrap->scratch->from_drape = wrap->scratch->mended = true;
 	cloth->settings = growing();
+	wrap_find_homes(wrap);
 	for (int v = 0; v < cloth->garment->vertex_count; v++) {
 		cloth->position_m[v] = position_m[v];
 		cloth->placed[v] = 1;
