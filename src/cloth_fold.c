@@ -206,6 +206,16 @@ static bool push_face(struct cloth *cloth, const int *v, struct v3 outside)
 	return true;
 }
 
+/* Where the face's outside is. A creased face may look at the body; then that is behind it. */
+static struct v3 face_outside(const struct cloth *cloth, int t)
+{
+	const int *v = cloth->triangle[t].v;
+	struct v3 normal = face_normal(cloth, t);
+	bool creased = cloth->creased[v[0]] && cloth->creased[v[1]] && cloth->creased[v[2]];
+	bool turned = creased && v3_dot(normal, cloth->contact[v[0]].normal) < 0.0f;
+	return turned ? v3_scale(normal, -1.0f) : normal;
+}
+
 int cloth_push_out(struct cloth *cloth, int slice, int slices, long *units)
 {
 	int found = 0;
@@ -217,11 +227,11 @@ int cloth_push_out(struct cloth *cloth, int slice, int slices, long *units)
 			if (cloth->contact[v[k]].distance_m > close_m)
 				continue;
 			close = true;
-			found += push_edge(cloth, v[k], v[(k + 1) % 3], face_normal(cloth, t));
+			found += push_edge(cloth, v[k], v[(k + 1) % 3], face_outside(cloth, t));
 			*units += EDGE_UNITS;
 		}
 		if (close) {
-			found += push_face(cloth, v, face_normal(cloth, t));
+			found += push_face(cloth, v, face_outside(cloth, t));
 			*units += LOOK_UNITS;
 		}
 	}
