@@ -77,6 +77,7 @@ void cloth_init(struct cloth *cloth, struct arena *arena)
 	s->stiff = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
 	s->track = ARENA_ARRAY(arena, struct body_track, GARMENT_VERTICES_MAX);
 	s->lift_m = ARENA_ARRAY(arena, float, GARMENT_VERTICES_MAX);
+	s->lift_way = ARENA_ARRAY(arena, struct v3, GARMENT_VERTICES_MAX);
 	s->slack_m = ARENA_ARRAY(arena, float, GARMENT_VERTICES_MAX);
 	init_order(s, arena);
 	init_levels(s, arena);
@@ -132,6 +133,7 @@ void cloth_reset(struct cloth *cloth, const struct garment *garment, const struc
 	memset(cloth->piece_drawn, 0, sizeof cloth->piece_drawn);
 	memset(cloth->scratch->stiff, 0, GARMENT_VERTICES_MAX);
 	memset(cloth->scratch->lift_m, 0, GARMENT_VERTICES_MAX * sizeof(float));
+	memset(cloth->scratch->lift_way, 0, GARMENT_VERTICES_MAX * sizeof(struct v3));
 	memset(cloth->scratch->slack_m, 0, GARMENT_VERTICES_MAX * sizeof(float));
 	if (!garment)
 		return;

@@ -12,6 +12,7 @@ static const float near_m = 0.03f;         /* farther cloth can't touch in the n
 static const float push_max_m = 0.015f;    /* deepest step out in one sweep */
 static const float skin_m = 0.0005f;       /* what would pass through is stopped so far outside */
 static const float lift_max_m = 0.015f;    /* highest a particle is lifted for its faces */
+static const float cleft_facing = 0.3f;    /* cosine between normals: less, and a cleft is there */
 static const float lift_slack_m = 0.0015f; /* faces this clear let their corners down again */
 
 static long look(struct cloth *cloth, int v)
@@ -65,6 +66,23 @@ static long refresh(struct cloth *cloth, int v)
 	return units + look(cloth, v);
 }
 
+/* Up to where the particle's faces need it. Returns how far. */
+static float raise(struct cloth *cloth, int v)
+{
+	const struct cloth_scratch *s = cloth->scratch;
+	struct v3 *p = &cloth->position_m[v], way = s->lift_way[v];
+	if (s->lift_m[v] <= layer_lift(cloth, v))
+		return 0.0f;
+	if (v3_dot(way, cloth->contact[v].normal) < cleft_facing)
+		way = cloth->contact[v].normal;
+	float height = v3_dot(v3_sub(*p, cloth->contact[v].point_m), way);
+	float out = cloth->settings.offset_m + s->lift_m[v] - height;
+	if (out <= 0.0f)
+		return 0.0f;
+	*p = v3_mad(*p, way, float_min(out, push_max_m));
+	return out;
+}
+
 /* Out along the normal. Friction: Coulomb's, so that cloth that hangs can rest (a step shorter than
  * grip times the push is lost wholly), and a share of what is left. */
 static void push(struct cloth *cloth, int v)
@@ -74,10 +92,11 @@ static void push(struct cloth *cloth, int v)
 	float d = v3_dot(v3_sub(*p, contact->point_m), n);
 	if (contact->distance_m > near_m && d > 0.5f * near_m)
 		return;
-	float out = cloth->settings.offset_m + cloth->scratch->lift_m[v] - d;
+	float out = float_max(cloth->settings.offset_m + layer_lift(cloth, v) - d, 0.0f);
+	*p = v3_mad(*p, n, float_min(out, push_max_m));
+	out += raise(cloth, v);
 	if (out <= 0.0f)
 		return;
-	*p = v3_mad(*p, n, float_min(out, push_max_m));
 	struct v3 step = v3_sub(*p, cloth->scratch->start_m[v]);
 	step = v3_mad(step, n, -v3_dot(step, n));
 	float length = v3_length(step), held = cloth->settings.grip * out;
@@ -120,6 +139,22 @@ bool cloth_pierced(const struct cloth *cloth, const int *v, int corners)
 	return false;
 }
 
+/* A corner is to rise by `by_m` along `up`, the body's normal at the face's point: along their own
+ * normals the corners over a peak would part and stretch the cloth between them. In a cleft, where
+ * that way leads into the other side, a corner keeps to its own normal. */
+static void lift(struct cloth *cloth, int v, struct v3 up, float by_m)
+{
+	struct cloth_scratch *s = cloth->scratch;
+	if (v3_dot(up, cloth->contact[v].normal) < cleft_facing)
+		up = cloth->contact[v].normal;
+	float now = float_max(s->lift_m[v] - layer_lift(cloth, v), 0.0f);
+	struct v3 way = v3_normalize(v3_add(v3_scale(s->lift_way[v], now), v3_scale(up, by_m)));
+	struct v3 to = v3_mad(v3_sub(cloth->position_m[v], cloth->contact[v].point_m), up, by_m);
+	float high = v3_dot(to, way) - cloth->settings.offset_m;
+	s->lift_way[v] = way;
+	s->lift_m[v] = float_clamp(high, s->lift_m[v], lift_max_m);
+}
+
 /* How much a point of a face, as weights of its corners, lacks; its corners are lifted by it. */
 static long lift_point(struct cloth *cloth, const int v[3], const float weight[3])
 {
@@ -141,14 +176,9 @@ static long lift_point(struct cloth *cloth, const int v[3], const float weight[3
 			s->slack_m[v[k]] = float_min(s->slack_m[v[k]], -lack);
 	if (lack <= 0.0f || hit.distance_m < -near_m || cloth_pierced(cloth, v, 3))
 		return looked;
-	for (int k = 0; k < 3; k++) {
-		const struct contact *contact = &cloth->contact[v[k]];
-		float height = v3_dot(v3_sub(cloth->position_m[v[k]], contact->point_m),
-				      contact->normal);
-		float lift = height + 0.7f * lack * weight[k] / squares - cloth->settings.offset_m;
-		if (weight[k] > 0.0f && lift > s->lift_m[v[k]])
-			s->lift_m[v[k]] = float_min(lift, lift_max_m);
-	}
+	for (int k = 0; k < 3; k++)
+		if (weight[k] > 0.0f)
+			lift(cloth, v[k], hit.normal, 0.7f * lack * weight[k] / squares);
 	return looked;
 }
 

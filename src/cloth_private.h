@@ -100,6 +100,7 @@ struct cloth_scratch {
 	uint8_t *stiff;      /* per particle: lay in a fold that was turned back, so bends less */
 	struct body_track *track; /* per particle */
 	float *lift_m;            /* per particle: above offset_m, for the sake of its faces */
+	struct v3 *lift_way;      /* per particle: the way it is lifted, a unit vector */
 	float *slack_m;           /* per particle: least clearance of its faces in this round */
 };
 
