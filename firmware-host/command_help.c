@@ -94,7 +94,7 @@ static void help_journal(void)
 	     "\n"
 	     "An OUTLINE is a list of X Y CORNER (mm, y up, counter-clockwise seen from the "
 	     "outside;\nCORNER 1 where one edge ends and the next begins, else 0; edge 0 starts at "
-	     "the first\ncorner). A line may end in *XXXXXXXX, its checksum (FNV-1a, 32 bit, of "
+	     "the first\ncorner). A line may end in *1a2b3c4d, its checksum (FNV-1a, 32 bit, of "
 	     "all "
 	     "before the\nblanks in front of it): the station writes one, a person need not.\n");
 	for (int kind = 0; kind < EDIT_KIND_COUNT; kind++)

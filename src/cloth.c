@@ -67,8 +67,6 @@ void cloth_init(struct cloth *cloth, struct arena *arena)
 	s->start_m = ARENA_ARRAY(arena, struct v3, GARMENT_VERTICES_MAX);
 	s->edge_first = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX + 2);
 	s->edge_triangle = ARENA_ARRAY(arena, int, 3 * GARMENT_TRIANGLES_MAX);
-	s->rim_first = ARENA_ARRAY(arena, int, PIECES_MAX + 1);
-	s->rim = ARENA_ARRAY(arena, int, 3 * GARMENT_TRIANGLES_MAX);
 	s->flipped = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
 	s->ring_first = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX + 2);
 	s->ring = ARENA_ARRAY(arena, int, 6 * GARMENT_TRIANGLES_MAX);

@@ -89,8 +89,6 @@ struct cloth_scratch {
 	struct v3 *start_m;     /* where the sweep began */
 	int *edge_first;        /* per vertex + 1, while edges are paired */
 	int *edge_triangle;     /* triangle * 3 + corner */
-	int *rim_first;         /* per piece + 1: its open edges */
-	int *rim;               /* triangle * 3 + corner */
 	uint8_t *flipped;       /* per particle, while folds are turned back */
 	int fold_count;         /* found since the first slice of triangles */
 	int *ring_first, *ring; /* neighbours of particles */
