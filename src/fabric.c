@@ -14,11 +14,6 @@ static const struct fabric fabrics[] = {
 
 static const float most_share = 0.6f; /* of bending taken back in a sweep; more would tremble */
 
-int fabric_count(void)
-{
-	return COUNT_OF(fabrics);
-}
-
 const struct fabric *fabric_at(int index)
 {
 	return &fabrics[int_clamp(index, 0, COUNT_OF(fabrics) - 1)];

@@ -17,7 +17,6 @@ struct fabric {
 
 /* The fabrics by name: the first is what every garment is made of until said otherwise. -1:
  * unknown. */
-int fabric_count(void);
 const struct fabric *fabric_at(int index);
 int fabric_named(const char *name);
 
