@@ -136,8 +136,6 @@ void cloth_reset(struct cloth *cloth, const struct garment *garment, const struc
 	if (!garment)
 		return;
 	for (int v = 0; v < garment->vertex_count; v++)
-		cloth->scratch->lift_m[v] = layer_lift(cloth, v);
-	for (int v = 0; v < garment->vertex_count; v++)
 		cloth->contact[v] = (struct contact){.triangle = -1};
 	cloth_build(cloth);
 }

@@ -11,6 +11,7 @@ static const float look_again_m = 0.0005f; /* the plane serves so far from where
 static const float near_m = 0.03f;         /* farther cloth can't touch in the next sweeps */
 static const float push_max_m = 0.015f;    /* deepest step out in one sweep */
 static const float skin_m = 0.0005f;       /* what would pass through is stopped so far outside */
+static const float near_margin_m = 0.001f; /* faces so little farther off are looked at too */
 static const float lift_max_m = 0.015f;    /* highest a particle is lifted for its faces */
 static const float cleft_facing = 0.3f;    /* cosine between normals: less, and a cleft is there */
 static const float lift_slack_m = 0.0015f; /* faces this clear let their corners down again */
@@ -66,17 +67,23 @@ static long refresh(struct cloth *cloth, int v)
 	return units + look(cloth, v);
 }
 
+/* How far from the body the particle stays, before its faces ask for more. */
+static float clearance(const struct cloth *cloth, int v)
+{
+	return cloth->settings.offset_m + layer_lift(cloth, v);
+}
+
 /* Up to where the particle's faces need it. Returns how far. */
-static float raise(struct cloth *cloth, int v)
+static float rise(struct cloth *cloth, int v)
 {
 	const struct cloth_scratch *s = cloth->scratch;
 	struct v3 *p = &cloth->position_m[v], way = s->lift_way[v];
-	if (s->lift_m[v] <= layer_lift(cloth, v))
+	if (s->lift_m[v] <= 0.0f)
 		return 0.0f;
 	if (v3_dot(way, cloth->contact[v].normal) < cleft_facing)
 		way = cloth->contact[v].normal;
 	float height = v3_dot(v3_sub(*p, cloth->contact[v].point_m), way);
-	float out = cloth->settings.offset_m + s->lift_m[v] - height;
+	float out = clearance(cloth, v) + s->lift_m[v] - height;
 	if (out <= 0.0f)
 		return 0.0f;
 	*p = v3_mad(*p, way, float_min(out, push_max_m));
@@ -92,9 +99,9 @@ static void push(struct cloth *cloth, int v)
 	float d = v3_dot(v3_sub(*p, contact->point_m), n);
 	if (contact->distance_m > near_m && d > 0.5f * near_m)
 		return;
-	float out = float_max(cloth->settings.offset_m + layer_lift(cloth, v) - d, 0.0f);
+	float out = float_max(clearance(cloth, v) - d, 0.0f);
 	*p = v3_mad(*p, n, float_min(out, push_max_m));
-	out += raise(cloth, v);
+	out += rise(cloth, v);
 	if (out <= 0.0f)
 		return;
 	struct v3 step = v3_sub(*p, cloth->scratch->start_m[v]);
@@ -147,10 +154,10 @@ static void lift(struct cloth *cloth, int v, struct v3 up, float by_m)
 	struct cloth_scratch *s = cloth->scratch;
 	if (v3_dot(up, cloth->contact[v].normal) < cleft_facing)
 		up = cloth->contact[v].normal;
-	float now = float_max(s->lift_m[v] - layer_lift(cloth, v), 0.0f);
-	struct v3 way = v3_normalize(v3_add(v3_scale(s->lift_way[v], now), v3_scale(up, by_m)));
+	struct v3 way = v3_normalize(
+		v3_add(v3_scale(s->lift_way[v], s->lift_m[v]), v3_scale(up, by_m)));
 	struct v3 to = v3_mad(v3_sub(cloth->position_m[v], cloth->contact[v].point_m), up, by_m);
-	float high = v3_dot(to, way) - cloth->settings.offset_m;
+	float high = v3_dot(to, way) - clearance(cloth, v);
 	s->lift_way[v] = way;
 	s->lift_m[v] = float_clamp(high, s->lift_m[v], lift_max_m);
 }
@@ -184,13 +191,13 @@ static long lift_point(struct cloth *cloth, const int v[3], const float weight[3
 
 static bool near_body(const struct cloth *cloth, const int v[3])
 {
-	float margin = cloth->settings.offset_m + 0.001f;
 	bool near = false;
 	for (int k = 0; k < 3; k++) {
 		const struct contact *contact = &cloth->contact[v[k]];
 		if (contact->triangle < 0)
 			return false;
-		near |= contact->distance_m < margin + cloth->scratch->lift_m[v[k]];
+		near |= contact->distance_m <
+			clearance(cloth, v[k]) + near_margin_m + cloth->scratch->lift_m[v[k]];
 	}
 	return near;
 }
@@ -201,7 +208,7 @@ static void lower_lifts(struct cloth *cloth)
 	struct cloth_scratch *s = cloth->scratch;
 	for (int v = 0; v < cloth->garment->vertex_count; v++) {
 		if (s->slack_m[v] > lift_slack_m)
-			s->lift_m[v] = float_max(0.8f * s->lift_m[v], layer_lift(cloth, v));
+			s->lift_m[v] *= 0.8f;
 		s->slack_m[v] = 1.0f;
 	}
 }
