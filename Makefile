@@ -54,7 +54,7 @@ objects = $(patsubst %.c,$(B)/%.o,$(1))
 # The pure part: what turns a tape into a state hash. It needs a C library and no package at all.
 CORE := $(call sources,src)
 PURE := $(CORE) $(wildcard drivers/tape*.c) \
-        $(filter-out drivers/pen_live% drivers/pen_node%,$(wildcard drivers/pen*.c)) \
+        $(wildcard drivers/pen*.c) \
         $(filter-out ui/draw%,$(call sources,ui)) \
         $(wildcard firmware-host/kiosk*.c firmware-host/must.c)
 
@@ -193,6 +193,6 @@ clean:
 	rm -rf $(build)
 
 .PHONY: all run check tests programs check-layers check-imports bench bench-peers peers fuzz fuzzers hash-matrix tremor \
-        matrix format format-check help clean
+        matrix examples format format-check help clean
 .SECONDARY:
 -include $(patsubst %.c,$(B)/%.d,$(ALL)) $(PEER_OBJECTS:.o=.d)
