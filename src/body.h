@@ -103,6 +103,10 @@ struct body_track {
 bool body_track(const struct body *body, struct v3 point_m, unsigned parts,
 		struct body_track *track, struct body_hit *hit, long *units);
 
+/* How far a point looked up may go from there until it is to be looked up again because it is far;
+ * 0 or less within BODY_NEAR_M, where that is the caller's to say. */
+float body_track_idle_m(const struct body_track *track);
+
 /* First hit of a ray with a front face (or, with `back`, the last hit with a back face: laser
  * mode's other side). Direction of any length; distance in units of it. False: no hit. */
 bool body_ray(const struct body *body, struct v3 origin_m, struct v3 direction,

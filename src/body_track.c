@@ -98,6 +98,11 @@ static bool look_exactly(const struct body *body, struct v3 p, unsigned parts, s
 	return true;
 }
 
+float body_track_idle_m(const struct body_track *track)
+{
+	return float_min(far_share * track->least_m, track->least_m - BODY_NEAR_M);
+}
+
 bool body_track(const struct body *body, struct v3 point_m, unsigned parts,
 		struct body_track *track, struct body_hit *hit, long *units)
 {
@@ -108,7 +113,7 @@ bool body_track(const struct body *body, struct v3 point_m, unsigned parts,
 	}
 	float way = v3_distance(point_m, track->at_m);
 	if (track->least_m - way > BODY_NEAR_M) {
-		if (way < far_share * track->least_m)
+		if (way < body_track_idle_m(track))
 			return false;
 		*units += EXACT_UNITS;
 		return look_exactly(body, point_m, parts, best, track, hit);

@@ -64,7 +64,6 @@ void cloth_init(struct cloth *cloth, struct arena *arena)
 	cloth->flat = ARENA_ARRAY(arena, struct flat, GARMENT_EDGES_MAX);
 	struct cloth_scratch *s = ARENA_ARRAY(arena, struct cloth_scratch, 1);
 	s->rest = ARENA_ARRAY(arena, struct rest, GARMENT_TRIANGLES_MAX);
-	s->start_m = ARENA_ARRAY(arena, struct v3, GARMENT_VERTICES_MAX);
 	s->edge_first = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX + 2);
 	s->edge_triangle = ARENA_ARRAY(arena, int, 3 * GARMENT_TRIANGLES_MAX);
 	s->flipped = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
@@ -74,6 +73,7 @@ void cloth_init(struct cloth *cloth, struct arena *arena)
 	s->edge_owner = ARENA_ARRAY(arena, uint8_t, GARMENT_TRIANGLES_MAX);
 	s->stiff = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
 	s->track = ARENA_ARRAY(arena, struct body_track, GARMENT_VERTICES_MAX);
+	s->quiet = ARENA_ARRAY(arena, struct quiet, GARMENT_VERTICES_MAX);
 	s->lift_m = ARENA_ARRAY(arena, float, GARMENT_VERTICES_MAX);
 	s->lift_way = ARENA_ARRAY(arena, struct v3, GARMENT_VERTICES_MAX);
 	s->slack_m = ARENA_ARRAY(arena, float, GARMENT_VERTICES_MAX);
@@ -133,6 +133,7 @@ void cloth_reset(struct cloth *cloth, const struct garment *garment, const struc
 	memset(cloth->scratch->lift_m, 0, GARMENT_VERTICES_MAX * sizeof(float));
 	memset(cloth->scratch->lift_way, 0, GARMENT_VERTICES_MAX * sizeof(struct v3));
 	memset(cloth->scratch->slack_m, 0, GARMENT_VERTICES_MAX * sizeof(float));
+	memset(cloth->scratch->quiet, 0, GARMENT_VERTICES_MAX * sizeof(struct quiet));
 	if (!garment)
 		return;
 	for (int v = 0; v < garment->vertex_count; v++)
@@ -200,35 +201,6 @@ void cloth_restore(struct cloth *cloth, const struct garment *garment, const str
  * The particles that are placed move as `place`s (cloth_kernel.h), up to contact, which works on
  * the public arrays. */
 
-/* Momentum, gravity and the pull of a far body. */
-static struct v3 predicted(const struct cloth *cloth, int v)
-{
-	const struct cloth_settings *set = &cloth->settings;
-	const struct contact *contact = &cloth->contact[v];
-	struct v3 p = cloth->position_m[v];
-	struct v3 step = v3_scale(v3_sub(p, cloth->previous_m[v]), set->momentum);
-	float squared = v3_dot(step, step);
-	if (squared > set->step_max_m * set->step_max_m)
-		step = v3_scale(step, set->step_max_m / sqrtf(squared));
-	p = v3_add(p, step);
-	p.y -= set->gravity_m;
-	if (set->attract_m > 0.0f && cloth->piece_drawn[cloth->garment->piece[v]] &&
-	    contact->triangle >= 0 && contact->distance_m > far_m)
-		p = v3_mad(p, contact->normal, -set->attract_m);
-	return p;
-}
-
-static void predict(struct cloth *cloth)
-{
-	struct cloth_scratch *s = cloth->scratch;
-	for (int slot = PADS; slot < s->slot_count; slot++) {
-		int v = s->slot_vertex[slot];
-		struct v3 p = predicted(cloth, v);
-		s->start_m[v] = cloth->position_m[v];
-		s->place[slot] = (struct place){p.x, p.y, p.z, 0.0f};
-	}
-}
-
 static struct v3 place_v3(const struct place *place)
 {
 	return (struct v3){place->x, place->y, place->z};
@@ -237,6 +209,40 @@ static struct v3 place_v3(const struct place *place)
 static void put_place(struct place *place, struct v3 p)
 {
 	*place = (struct place){p.x, p.y, p.z, 0.0f};
+}
+
+static struct particles particles_of(const struct cloth *cloth)
+{
+	return (struct particles){cloth->scratch->slot_vertex + PADS, cloth->position_m,
+				  cloth->previous_m};
+}
+
+/* A far body pulls drawn pieces. */
+static void attract(struct cloth *cloth)
+{
+	struct cloth_scratch *s = cloth->scratch;
+	for (int slot = PADS; slot < s->slot_count; slot++) {
+		int v = s->slot_vertex[slot];
+		const struct contact *contact = &cloth->contact[v];
+		if (!cloth->piece_drawn[cloth->garment->piece[v]] || contact->triangle < 0 ||
+		    contact->distance_m <= far_m)
+			continue;
+		struct v3 p = place_v3(&s->place[slot]);
+		put_place(&s->place[slot], v3_mad(p, contact->normal, -cloth->settings.attract_m));
+	}
+}
+
+/* Momentum, gravity and the pull of a far body. */
+static void predict(struct cloth *cloth)
+{
+	const struct cloth_settings *set = &cloth->settings;
+	struct cloth_scratch *s = cloth->scratch;
+	struct particles particles = particles_of(cloth);
+	kernel_of(cloth->lanes)
+		->predict(s->place + PADS, &particles, s->slot_count - PADS, set->momentum,
+			  set->step_max_m, set->gravity_m);
+	if (set->attract_m > 0.0f)
+		attract(cloth);
 }
 
 /* Both sides of a seam go half the way towards each other, at most seam_step_m in a sweep. */
@@ -274,40 +280,34 @@ static long keep_shape(struct cloth *cloth)
 	return (long)BATCH * (set->shape_passes * s->shape_count + s->flat_count);
 }
 
-/* Into the public arrays again; held particles go to their goals. */
-static void put_back(struct cloth *cloth)
+/* Held particles go to their goals. */
+static void pull_held(struct cloth *cloth)
 {
 	struct cloth_scratch *s = cloth->scratch;
 	for (int slot = PADS; slot < s->slot_count; slot++) {
 		int v = s->slot_vertex[slot];
+		if (!cloth->held[v])
+			continue;
 		struct v3 p = place_v3(&s->place[slot]);
-		if (cloth->held[v])
-			p = v3_lerp(p, cloth->goal_m[v], cloth->held[v] > 1 ? 0.9f : 0.5f);
-		cloth->position_m[v] = p;
+		float share = cloth->held[v] > 1 ? 0.9f : 0.5f;
+		put_place(&s->place[slot], v3_lerp(p, cloth->goal_m[v], share));
 	}
+}
+
+/* Into the public arrays again. */
+static void put_back(struct cloth *cloth)
+{
+	struct cloth_scratch *s = cloth->scratch;
+	struct particles particles = particles_of(cloth);
+	kernel_of(cloth->lanes)->put_back(s->place + PADS, &particles, s->slot_count - PADS);
 }
 
 /* No particle goes farther than step_max_m in a sweep, so that none can pass through a limb. */
 static void bound_steps(struct cloth *cloth)
 {
-	struct cloth_scratch *s = cloth->scratch;
-	float most = cloth->settings.step_max_m;
-	for (int slot = PADS; slot < s->slot_count; slot++) {
-		int v = s->slot_vertex[slot];
-		struct v3 start = s->start_m[v], step = v3_sub(cloth->position_m[v], start);
-		float squared = v3_dot(step, step);
-		if (squared > most * most)
-			cloth->position_m[v] = v3_mad(start, step, most / sqrtf(squared));
-	}
-}
-
-static void remember(struct cloth *cloth)
-{
-	struct cloth_scratch *s = cloth->scratch;
-	for (int slot = PADS; slot < s->slot_count; slot++) {
-		int v = s->slot_vertex[slot];
-		cloth->previous_m[v] = s->start_m[v];
-	}
+	struct particles particles = particles_of(cloth);
+	kernel_of(cloth->lanes)
+		->bound(&particles, cloth->scratch->slot_count - PADS, cloth->settings.step_max_m);
 }
 
 static long sweep(struct cloth *cloth)
@@ -318,13 +318,13 @@ static long sweep(struct cloth *cloth)
 	units += close_seams(cloth);
 	units += cloth_levels(cloth);
 	units += keep_shape(cloth);
+	pull_held(cloth);
 	put_back(cloth);
 	units += cloth_self(cloth);
 	bound_steps(cloth);
 	if (cloth->settings.faces)
 		units += cloth_contact_faces(cloth, cloth->sweep % FACE_SLICES, FACE_SLICES);
 	units += cloth_contact(cloth);
-	remember(cloth);
 	cloth->sweep++;
 	return units;
 }

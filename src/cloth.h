@@ -40,7 +40,7 @@ struct cloth {
 	const struct garment *garment;
 	const struct body *body;
 	struct v3 *position_m; /* per garment vertex; welded: read through cloth_particle */
-	struct v3 *previous_m;
+	struct v3 *previous_m; /* where the last sweep began: they differ by the momentum */
 	struct contact *contact;
 	uint8_t *placed; /* the wrap has laid this vertex */
 	uint8_t *held;   /* goal_m pulls: 1 softly (marks, the grabbed point), 2 firmly (pins) */

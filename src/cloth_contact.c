@@ -30,6 +30,7 @@ static long look(struct cloth *cloth, int v)
 void cloth_look(struct cloth *cloth, int v)
 {
 	cloth->scratch->track[v].triangle = -1;
+	cloth->scratch->quiet[v].way2_m2 = 0.0f;
 	look(cloth, v);
 }
 
@@ -104,7 +105,7 @@ static void push(struct cloth *cloth, int v)
 	out += rise(cloth, v);
 	if (out <= 0.0f)
 		return;
-	struct v3 step = v3_sub(*p, cloth->scratch->start_m[v]);
+	struct v3 step = v3_sub(*p, cloth->previous_m[v]);
 	step = v3_mad(step, n, -v3_dot(step, n));
 	float length = v3_length(step), held = cloth->settings.grip * out;
 	float lost = length > held ? cloth->settings.friction : 1.0f;
@@ -113,19 +114,60 @@ static void push(struct cloth *cloth, int v)
 	*p = v3_mad(*p, step, -lost);
 }
 
+/* How far the particle may move before push() has something to do. */
+static float spare(const struct cloth *cloth, int v)
+{
+	const struct cloth_scratch *s = cloth->scratch;
+	const struct contact *contact = &cloth->contact[v];
+	struct v3 from = v3_sub(cloth->position_m[v], contact->point_m);
+	float least = v3_dot(from, contact->normal);
+	if (s->lift_m[v] > 0.0f)
+		least = float_min(least, v3_dot(from, s->lift_way[v])) - s->lift_m[v];
+	return least - clearance(cloth, v);
+}
+
+static void find_quiet(struct cloth *cloth, int v)
+{
+	const struct body_track *track = &cloth->scratch->track[v];
+	struct v3 p = cloth->position_m[v];
+	float gone = v3_distance(p, track->at_m);
+	float looked = float_max(look_again_m, body_track_idle_m(track));
+	float way = float_min(spare(cloth, v), float_min(looked, track->least_m) - gone);
+	cloth->scratch->quiet[v] = (struct quiet){p, way > 0.0f ? way * way : 0.0f};
+}
+
 long cloth_touch(struct cloth *cloth, int v)
 {
 	long units = refresh(cloth, v);
 	push(cloth, v);
+	find_quiet(cloth, v);
 	return units;
+}
+
+/* What a stage of the wrap changes ends all quiet. */
+static void note_stage(struct cloth *cloth)
+{
+	struct cloth_scratch *s = cloth->scratch;
+	struct contact_stage now = {.offset_m = cloth->settings.offset_m};
+	if (cloth->settings.filter_parts)
+		memcpy(now.piece_parts, cloth->piece_parts, sizeof now.piece_parts);
+	if (memcmp(&now, &s->stage, sizeof now) == 0)
+		return;
+	s->stage = now;
+	for (int v = 0; v < cloth->garment->vertex_count; v++)
+		s->quiet[v].way2_m2 = 0.0f;
 }
 
 long cloth_contact(struct cloth *cloth)
 {
+	const struct quiet *quiet = cloth->scratch->quiet;
 	long units = 0;
-	for (int v = 0; v < cloth->garment->vertex_count; v++)
-		if (is_particle(cloth, v))
+	note_stage(cloth);
+	for (int v = 0; v < cloth->garment->vertex_count; v++) {
+		struct v3 gone = v3_sub(cloth->position_m[v], quiet[v].at_m);
+		if (!(v3_dot(gone, gone) < quiet[v].way2_m2) && is_particle(cloth, v))
 			units += cloth_touch(cloth, v);
+	}
 	return units;
 }
 
@@ -159,6 +201,7 @@ static void lift(struct cloth *cloth, int v, struct v3 up, float by_m)
 	struct v3 to = v3_mad(v3_sub(cloth->position_m[v], cloth->contact[v].point_m), up, by_m);
 	float high = v3_dot(to, way) - clearance(cloth, v);
 	s->lift_way[v] = way;
+	s->quiet[v].way2_m2 = 0.0f;
 	s->lift_m[v] = float_clamp(high, s->lift_m[v], lift_max_m);
 }
 

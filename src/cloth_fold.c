@@ -244,7 +244,7 @@ int cloth_clean(struct cloth *cloth, int slice, int slices, long *units)
 {
 	int count = cloth->garment->vertex_count;
 	for (int v = 0; v < count; v++)
-		cloth->scratch->start_m[v] = cloth->position_m[v];
+		cloth->previous_m[v] = cloth->position_m[v];
 	for (int v = slice; v < count; v += slices)
 		if (is_particle(cloth, v)) {
 			cloth_look(cloth, v);

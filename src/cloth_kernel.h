@@ -49,6 +49,12 @@ struct spread {
 	float weight[SPREAD];
 };
 
+/* The particles of a sweep in the public arrays: where they are, and where it began. */
+struct particles {
+	const int *vertex; /* per slot */
+	struct v3 *position_m, *previous_m;
+};
+
 struct kernel {
 	/* Every triangle goes `share` of its way to its rest shape; `shear` (0..1) of its shear
 	 * counts as a fault, the rest is left. */
@@ -60,6 +66,14 @@ struct kernel {
 	/* Every particle moves by the weighted moves of its nodes. */
 	void (*spread)(struct place *x, const struct spread *spread, int count,
 		       const struct place *move);
+	/* `count` slots take their particles' positions, moved on by `momentum` of the last step,
+	 * at most step_max_m, and by fall_m downwards; previous_m is where the sweep begins. */
+	void (*predict)(struct place *x, const struct particles *particles, int count,
+			float momentum, float step_max_m, float fall_m);
+	/* The particles take their slots' places. */
+	void (*put_back)(const struct place *x, const struct particles *particles, int count);
+	/* No particle is farther than step_max_m from where the sweep began. */
+	void (*bound)(const struct particles *particles, int count, float step_max_m);
 };
 
 /* The widest form that has at most `lanes` lanes and that this build knows. */

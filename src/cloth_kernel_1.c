@@ -1,4 +1,4 @@
 #define LANES 1
 #include "cloth_kernel_lanes.h"
 
-const struct kernel kernel_1 = {shape, flatten, spread_moves};
+const struct kernel kernel_1 = KERNEL;

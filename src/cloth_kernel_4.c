@@ -1,4 +1,4 @@
 #define LANES 4
 #include "cloth_kernel_lanes.h"
 
-const struct kernel kernel_4 = {shape, flatten, spread_moves};
+const struct kernel kernel_4 = KERNEL;

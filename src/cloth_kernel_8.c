@@ -2,7 +2,7 @@
 #ifdef __x86_64__
 #include "cloth_kernel_lanes.h"
 
-const struct kernel kernel_8 = {shape, flatten, spread_moves};
+const struct kernel kernel_8 = KERNEL;
 #else
 #include "cloth_kernel.h"
 #endif

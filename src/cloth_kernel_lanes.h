@@ -140,3 +140,61 @@ LANES_TARGET static void spread_moves(struct place *x, const struct spread *spre
 		place_store(&x[i], 0, four_add(place_load(&x[i], 0), mix(p, spread[i].weight)));
 	}
 }
+
+/* ---- particles in the public arrays ---- */
+
+LANES_INLINE four load_v3(const struct v3 *from)
+{
+	return four_of(from->x, from->y, from->z);
+}
+
+LANES_INLINE float squared_length(four a)
+{
+	struct v3 b = four_v3(a);
+	return b.x * b.x + b.y * b.y + b.z * b.z;
+}
+
+LANES_TARGET static void predict(struct place *x, const struct particles *particles, int count,
+				 float momentum, float step_max_m, float fall_m)
+{
+	float squared_max = step_max_m * step_max_m;
+	four fall = four_of(0.0f, fall_m, 0.0f);
+	for (int i = 0; i < count; i++) {
+		int v = particles->vertex[i];
+		four p = load_v3(&particles->position_m[v]);
+		four step = four_sub(p, load_v3(&particles->previous_m[v]));
+		step = four_scale(step, momentum);
+		float squared = squared_length(step);
+		if (squared > squared_max)
+			step = four_scale(step, step_max_m / sqrtf(squared));
+		particles->previous_m[v] = particles->position_m[v];
+		place_store(&x[i], 0, four_sub(four_add(p, step), fall));
+	}
+}
+
+LANES_TARGET static void put_back(const struct place *x, const struct particles *particles,
+				  int count)
+{
+	for (int i = 0; i < count; i++)
+		particles->position_m[particles->vertex[i]] = four_v3(place_load(&x[i], 0));
+}
+
+LANES_TARGET static void bound(const struct particles *particles, int count, float step_max_m)
+{
+	float squared_max = step_max_m * step_max_m;
+	for (int i = 0; i < count; i++) {
+		int v = particles->vertex[i];
+		four start = load_v3(&particles->previous_m[v]);
+		four step = four_sub(load_v3(&particles->position_m[v]), start);
+		float squared = squared_length(step);
+		if (squared > squared_max) {
+			step = four_scale(step, step_max_m / sqrtf(squared));
+			particles->position_m[v] = four_v3(four_add(start, step));
+		}
+	}
+}
+
+#define KERNEL                                                                                     \
+	{                                                                                          \
+		shape, flatten, spread_moves, predict, put_back, bound                             \
+	}

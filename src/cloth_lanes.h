@@ -82,6 +82,16 @@ LANES_INLINE four four_scale(four a, float s)
 	return (row){a.x * s, a.y * s, a.z * s, a.w * s};
 }
 
+LANES_INLINE four four_of(float x, float y, float z)
+{
+	return (row){x, y, z, 0.0f};
+}
+
+LANES_INLINE struct v3 four_v3(four a)
+{
+	return (struct v3){a.x, a.y, a.z};
+}
+
 LANES_INLINE four place_load(const struct place *x, uint32_t at)
 {
 	return *(const struct place *)((const char *)x + at);
@@ -195,6 +205,16 @@ LANES_INLINE four four_sub(four a, four b)
 LANES_INLINE four four_scale(four a, float s)
 {
 	return a * s;
+}
+
+LANES_INLINE four four_of(float x, float y, float z)
+{
+	return (four){x, y, z, 0.0f};
+}
+
+LANES_INLINE struct v3 four_v3(four a)
+{
+	return (struct v3){a[0], a[1], a[2]};
 }
 
 LANES_INLINE four place_load(const struct place *x, uint32_t at)

@@ -54,6 +54,18 @@ struct level {
 	struct place *at, *move; /* per node, in a sweep */
 };
 
+/* Within so far (squared) of a place a particle neither touches the body nor needs a new look. */
+struct quiet {
+	struct v3 at_m;
+	float way2_m2;
+};
+
+/* What the particles' quiet was found for. */
+struct contact_stage {
+	float offset_m;
+	unsigned piece_parts[PIECES_MAX];
+};
+
 struct cloth_scratch {
 	struct rest *rest; /* per triangle */
 
@@ -86,7 +98,6 @@ struct cloth_scratch {
 	int *way_of, way_now;
 	int *heap, *heap_at;
 
-	struct v3 *start_m;     /* where the sweep began */
 	int *edge_first;        /* per vertex + 1, while edges are paired */
 	int *edge_triangle;     /* triangle * 3 + corner */
 	uint8_t *flipped;       /* per particle, while folds are turned back */
@@ -97,9 +108,11 @@ struct cloth_scratch {
 			      */
 	uint8_t *stiff;      /* per particle: lay in a fold that was turned back, so bends less */
 	struct body_track *track; /* per particle */
-	float *lift_m;            /* per particle: above offset_m, for the sake of its faces */
-	struct v3 *lift_way;      /* per particle: the way it is lifted, a unit vector */
-	float *slack_m;           /* per particle: least clearance of its faces in this round */
+	struct quiet *quiet;      /* per particle */
+	struct contact_stage stage;
+	float *lift_m;       /* per particle: above offset_m, for the sake of its faces */
+	struct v3 *lift_way; /* per particle: the way it is lifted, a unit vector */
+	float *slack_m;      /* per particle: least clearance of its faces in this round */
 };
 
 static inline bool triangle_placed(const struct cloth *cloth, int t)

@@ -217,7 +217,7 @@ static void keep_apart(struct cloth *cloth, int v, int pair)
 {
 	const int *w = cloth->triangle[pair / 4].v;
 	struct v3 *x = cloth->position_m;
-	const struct v3 *start = cloth->scratch->start_m;
+	const struct v3 *start = cloth->previous_m;
 	struct over over;
 	if (!(pair & SELF_DECIDED) || !self_look_over(cloth, x[v], pair / 4, &over))
 		return;
