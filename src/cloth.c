@@ -10,17 +10,17 @@ static void init_order(struct cloth_scratch *s, struct arena *arena)
 {
 	s->ranked = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
 	s->rank = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
-	s->triangle_order = ARENA_ARRAY(arena, int, GARMENT_TRIANGLES_MAX);
-	s->flat_order = ARENA_ARRAY(arena, int, GARMENT_EDGES_MAX);
+	s->triangles.item = ARENA_ARRAY(arena, int, GARMENT_TRIANGLES_MAX);
+	s->flats.item = ARENA_ARRAY(arena, int, GARMENT_EDGES_MAX);
 	s->sorted = ARENA_ARRAY(arena, int, GARMENT_EDGES_MAX);
 	s->taken = ARENA_ARRAY(arena, uint64_t, GARMENT_VERTICES_MAX);
-	s->colour = ARENA_ARRAY(arena, uint8_t, GARMENT_EDGES_MAX);
+	s->key = ARENA_ARRAY(arena, uint16_t, GARMENT_EDGES_MAX);
 	s->taken_placed = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
 	s->slot = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
-	s->slot_vertex = ARENA_ARRAY(arena, int, PADS + GARMENT_VERTICES_MAX);
-	s->place = ARENA_ARRAY(arena, struct place, PADS + GARMENT_VERTICES_MAX);
+	s->slot_vertex = ARENA_ARRAY(arena, int, SLOT_FIRST + GARMENT_VERTICES_MAX);
+	s->place = ARENA_ARRAY(arena, struct place, SLOT_FIRST + GARMENT_VERTICES_MAX);
 	s->shape = ARENA_ARRAY(arena, struct shape_batch, SHAPE_BATCHES_MAX);
-	s->flat = ARENA_ARRAY(arena, struct flat_batch, FLAT_BATCHES_MAX);
+	s->bend = ARENA_ARRAY(arena, struct bend, GARMENT_EDGES_MAX);
 }
 
 static void init_levels(struct cloth_scratch *s, struct arena *arena)
@@ -36,7 +36,7 @@ static void init_levels(struct cloth_scratch *s, struct arena *arena)
 		level->move = ARENA_ARRAY(arena, struct place, LEVEL_NODES_MAX);
 		members = LEVEL_NODES_MAX;
 	}
-	s->slot_spread = ARENA_ARRAY(arena, struct spread, PADS + GARMENT_VERTICES_MAX);
+	s->slot_spread = ARENA_ARRAY(arena, struct spread, SLOT_FIRST + GARMENT_VERTICES_MAX);
 	s->star_first = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX + 2);
 	s->star = ARENA_ARRAY(arena, int, 3 * GARMENT_TRIANGLES_MAX);
 	s->member = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
@@ -213,7 +213,7 @@ static void put_place(struct place *place, struct v3 p)
 
 static struct particles particles_of(const struct cloth *cloth)
 {
-	return (struct particles){cloth->scratch->slot_vertex + PADS, cloth->position_m,
+	return (struct particles){cloth->scratch->slot_vertex + SLOT_FIRST, cloth->position_m,
 				  cloth->previous_m};
 }
 
@@ -221,7 +221,7 @@ static struct particles particles_of(const struct cloth *cloth)
 static void attract(struct cloth *cloth)
 {
 	struct cloth_scratch *s = cloth->scratch;
-	for (int slot = PADS; slot < s->slot_count; slot++) {
+	for (int slot = SLOT_FIRST; slot < s->slot_count; slot++) {
 		int v = s->slot_vertex[slot];
 		const struct contact *contact = &cloth->contact[v];
 		if (!cloth->piece_drawn[cloth->garment->piece[v]] || contact->triangle < 0 ||
@@ -239,8 +239,8 @@ static void predict(struct cloth *cloth)
 	struct cloth_scratch *s = cloth->scratch;
 	struct particles particles = particles_of(cloth);
 	kernel_of(cloth->lanes)
-		->predict(s->place + PADS, &particles, s->slot_count - PADS, set->momentum,
-			  set->step_max_m, set->gravity_m);
+		->predict(s->place + SLOT_FIRST, &particles, s->slot_count - SLOT_FIRST,
+			  set->momentum, set->step_max_m, set->gravity_m);
 	if (set->attract_m > 0.0f)
 		attract(cloth);
 }
@@ -267,24 +267,11 @@ static long close_seams(struct cloth *cloth)
 	return cloth->garment->pair_count;
 }
 
-static long keep_shape(struct cloth *cloth)
-{
-	const struct cloth_settings *set = &cloth->settings;
-	const struct kernel *kernel = kernel_of(cloth->lanes);
-	struct cloth_scratch *s = cloth->scratch;
-	for (int pass = 0; pass < set->shape_passes; pass++)
-		kernel->shape(s->place, s->shape, s->shape_count, set->shape, set->shear,
-			      (cloth->sweep + pass) & 1);
-	if (set->flatness > 0.0f)
-		kernel->flatten(s->place, s->flat, s->flat_count, set->flatness, cloth->sweep & 1);
-	return (long)BATCH * (set->shape_passes * s->shape_count + s->flat_count);
-}
-
 /* Held particles go to their goals. */
 static void pull_held(struct cloth *cloth)
 {
 	struct cloth_scratch *s = cloth->scratch;
-	for (int slot = PADS; slot < s->slot_count; slot++) {
+	for (int slot = SLOT_FIRST; slot < s->slot_count; slot++) {
 		int v = s->slot_vertex[slot];
 		if (!cloth->held[v])
 			continue;
@@ -299,7 +286,8 @@ static void put_back(struct cloth *cloth)
 {
 	struct cloth_scratch *s = cloth->scratch;
 	struct particles particles = particles_of(cloth);
-	kernel_of(cloth->lanes)->put_back(s->place + PADS, &particles, s->slot_count - PADS);
+	kernel_of(cloth->lanes)
+		->put_back(s->place + SLOT_FIRST, &particles, s->slot_count - SLOT_FIRST);
 }
 
 /* No particle goes farther than step_max_m in a sweep, so that none can pass through a limb. */
@@ -307,7 +295,8 @@ static void bound_steps(struct cloth *cloth)
 {
 	struct particles particles = particles_of(cloth);
 	kernel_of(cloth->lanes)
-		->bound(&particles, cloth->scratch->slot_count - PADS, cloth->settings.step_max_m);
+		->bound(&particles, cloth->scratch->slot_count - SLOT_FIRST,
+			cloth->settings.step_max_m);
 }
 
 static long sweep(struct cloth *cloth)
@@ -317,7 +306,7 @@ static long sweep(struct cloth *cloth)
 	predict(cloth);
 	units += close_seams(cloth);
 	units += cloth_levels(cloth);
-	units += keep_shape(cloth);
+	units += cloth_shape(cloth);
 	pull_held(cloth);
 	put_back(cloth);
 	units += cloth_self(cloth);

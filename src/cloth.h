@@ -8,6 +8,7 @@
 #define CLOTH_H
 
 #include "body.h"
+#include "crew.h"
 #include "garment.h"
 
 /* Where a particle touches or nearly touches the body, kept from sweep to sweep (S17). */
@@ -54,9 +55,10 @@ struct cloth {
 	struct triangle *triangle;        /* through particle[] */
 	int flat_count;                   /* edges of two triangles */
 	struct flat *flat;
-	int fabric; /* fabric_at: what a worn garment is made of */
-	int lanes;  /* 1, 4 or 8: numbers that the processor works at once; same bits */
-	int sweep;  /* counted for the time-sliced refresh */
+	int fabric;        /* fabric_at: what a worn garment is made of */
+	int lanes;         /* 1, 4 or 8: numbers that the processor works at once; same bits */
+	struct crew *crew; /* NULL: no threads beside the caller's; same bits */
+	int sweep;         /* counted for the time-sliced refresh */
 	struct cloth_settings settings;
 	struct cloth_scratch *scratch; /* owned by cloth_*.c */
 	struct cloth_self *self;       /* owned by cloth_self*.c */

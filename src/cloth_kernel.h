@@ -1,7 +1,7 @@
 /* The solver's inner loops, in three forms that give the same bits: one lane (plain C), four lanes
  * (SSE2, NEON, or whatever the compiler makes of a 16-byte vector) and eight (AVX2).
  *
- * Constraints come in batches of eight whose particles are all different, so that the lanes of a
+ * Triangles come in batches of eight whose particles are all different, so that the lanes of a
  * batch may be worked out together; a form with fewer lanes takes a batch in parts. The arithmetic
  * of a lane is the same in all: no contraction, no reciprocal estimates, square root and divide. */
 #ifndef CLOTH_KERNEL_H
@@ -11,7 +11,7 @@
 
 enum {
 	BATCH = 8,        /* constraints in a batch */
-	PADS = 3 * BATCH, /* the first slots: particles of the lanes that fill a batch up */
+	PADS = 3 * BATCH, /* particles of the lanes that fill a batch up */
 	KERNEL_LANES_MAX = 8,
 };
 
@@ -35,11 +35,12 @@ struct shape_batch {
 	float grain[3][BATCH];
 };
 
-/* Edges with the far corners of their triangles: flat when sum k[i] x[i] = 0; sum k k = 1. */
-struct flat_batch {
-	_Alignas(16) float k[BATCH][4];
-	uint32_t at[BATCH][4];
-	float firm[BATCH]; /* least share, whatever the setting */
+/* An edge with the far corners of its triangles: flat when sum k[i] x[i] = 0; sum k k = 1. Its sums
+ * are over whole particles, so that it fills the lanes by itself. */
+struct bend {
+	float k[4];
+	uint32_t at[4];
+	float firm; /* least share, whatever the setting */
 };
 
 /* The nodes of a coarse level that move a particle, with their weights. */
@@ -61,7 +62,7 @@ struct kernel {
 	void (*shape)(struct place *x, const struct shape_batch *batch, int count, float share,
 		      float shear, bool backwards);
 	/* Every edge goes `share` of its way to flat. */
-	void (*flatten)(struct place *x, const struct flat_batch *batch, int count, float share,
+	void (*flatten)(struct place *x, const struct bend *bend, int count, float share,
 			bool backwards);
 	/* Every particle moves by the weighted moves of its nodes. */
 	void (*spread)(struct place *x, const struct spread *spread, int count,

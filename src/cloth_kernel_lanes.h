@@ -112,21 +112,17 @@ LANES_INLINE four mix(const four p[4], const float k[4])
 			four_add(four_scale(p[2], k[2]), four_scale(p[3], k[3])));
 }
 
-/* Sums over whole particles: they stay as they lie in memory. */
-LANES_TARGET static void flatten(struct place *x, const struct flat_batch *batch, int count,
-				 float share, bool backwards)
+LANES_TARGET static void flatten(struct place *x, const struct bend *bend, int count, float share,
+				 bool backwards)
 {
 	for (int i = 0; i < count; i++) {
-		const struct flat_batch *now = &batch[backwards ? count - 1 - i : i];
-		for (int j = 0; j < BATCH; j++) {
-			const uint32_t *at = now->at[j];
-			const float *k = now->k[j], firm = now->firm[j];
-			four p[4] = {place_load(x, at[0]), place_load(x, at[1]),
-				     place_load(x, at[2]), place_load(x, at[3])};
-			four bend = four_scale(mix(p, k), firm > share ? firm : share);
-			UNROLL for (int c = 0; c < 4; c++)
-				place_store(x, at[c], four_sub(p[c], four_scale(bend, k[c])));
-		}
+		const struct bend *now = &bend[backwards ? count - 1 - i : i];
+		const uint32_t *at = now->at;
+		four p[4] = {place_load(x, at[0]), place_load(x, at[1]), place_load(x, at[2]),
+			     place_load(x, at[3])};
+		four fault = four_scale(mix(p, now->k), now->firm > share ? now->firm : share);
+		UNROLL for (int c = 0; c < 4; c++)
+			place_store(x, at[c], four_sub(p[c], four_scale(fault, now->k[c])));
 	}
 }
 

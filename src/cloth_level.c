@@ -254,7 +254,7 @@ void cloth_take_levels(struct cloth *cloth)
 		memset(level->at, 0, (size_t)level->node_count * sizeof *level->at);
 		memset(level->move, 0, (size_t)level->node_count * sizeof *level->move);
 	}
-	for (int slot = PADS; slot < s->slot_count; slot++)
+	for (int slot = SLOT_FIRST; slot < s->slot_count; slot++)
 		s->slot_spread[slot] = s->level[0].spread[s->rank[s->slot_vertex[slot]]];
 }
 
@@ -319,7 +319,7 @@ long cloth_levels(struct cloth *cloth)
 	if (!moved)
 		return units;
 	kernel_of(cloth->lanes)
-		->spread(s->place + PADS, s->slot_spread + PADS, s->slot_count - PADS,
-			 s->level[0].move);
-	return units + s->slot_count - PADS;
+		->spread(s->place + SLOT_FIRST, s->slot_spread + SLOT_FIRST,
+			 s->slot_count - SLOT_FIRST, s->level[0].move);
+	return units + s->slot_count - SLOT_FIRST;
 }

@@ -1,6 +1,10 @@
 /* The order in which the solver works: particles by neighbourhood, constraints by colour. */
 #include "cloth_private.h"
 
+/* Particles of a strip. Less work is done sooner than handed on, and narrow strips fill their
+ * batches badly. */
+enum { STRIP_LEAST = 1200 };
+
 /* ---- once for a mesh ---- */
 
 /* Breadth-first over the mesh (Cuthill and McKee 1969): neighbours get near numbers, so that a
@@ -30,20 +34,66 @@ static void rank_particles(struct cloth *cloth)
 	s->ranked_count = count;
 }
 
-/* Constraints to be coloured: `arity` particles each, `stride` ints apart. */
+/* Constraints of a kind: `arity` particles each, `stride` ints apart. */
 struct list {
 	const int *corner;
 	int arity, stride, count;
 };
 
-static int lowest_rank(const struct cloth_scratch *s, const struct list *list, int i)
+struct span {
+	int low, high; /* ranks */
+};
+
+static struct span span_of(const struct cloth_scratch *s, const struct list *list, int i)
 {
 	const int *v = list->corner + (size_t)i * (size_t)list->stride;
-	int low = s->rank[v[0]];
-	for (int k = 1; k < list->arity; k++)
-		low = int_min(low, s->rank[v[k]]);
-	return low;
+	struct span span = {s->rank[v[0]], s->rank[v[0]]};
+	for (int k = 1; k < list->arity; k++) {
+		span.low = int_min(span.low, s->rank[v[k]]);
+		span.high = int_max(span.high, s->rank[v[k]]);
+	}
+	return span;
 }
+
+/* ---- strips ----
+ *
+ * Ranks in a row are a strip of the cloth, as long as its neighbourhoods. The cloth is cut into
+ * strips at least twice as wide as any constraint reaches: a constraint either lies in one strip or
+ * crosses one cut and ends within the halves beside it. So all strips may be worked at the same
+ * time, and after them all cuts, whoever works them, and the bits are the same. What a strip needs
+ * also stays near the processor meanwhile. How many there are is a matter of the mesh alone. */
+
+static int reach_of(const struct cloth_scratch *s, const struct list *list)
+{
+	int reach = 1;
+	for (int i = 0; i < list->count; i++) {
+		struct span span = span_of(s, list, i);
+		reach = int_max(reach, span.high - span.low);
+	}
+	return reach;
+}
+
+/* Four strips are shared out evenly among one, two or four. */
+static int strips_for(int ranks, int reach)
+{
+	int strips = int_min(ranks / (2 * reach), ranks / STRIP_LEAST);
+	strips = int_clamp(strips, 1, STRIPS_MAX);
+	return strips >= 4 ? strips / 4 * 4 : strips >= 2 ? 2 : 1;
+}
+
+/* Its strip or, behind the strips, its cut. */
+static int group_of(const struct cloth_scratch *s, const struct list *list, int i)
+{
+	struct span span = span_of(s, list, i);
+	int low = span.low * 2 * s->strip_count / s->ranked_count;
+	int high = span.high * 2 * s->strip_count / s->ranked_count;
+	if (low / 2 == high / 2)
+		return low / 2;
+	MUST(high == low + 1);
+	return s->strip_count + low / 2;
+}
+
+/* ---- colours ---- */
 
 /* Counting sort of the constraints by the lowest rank of their particles, into s->sorted. */
 static void sort_by_rank(struct cloth *cloth, const struct list *list)
@@ -52,11 +102,11 @@ static void sort_by_rank(struct cloth *cloth, const struct list *list)
 	int *first = s->edge_first, ranks = s->ranked_count;
 	memset(first, 0, (size_t)(ranks + 1) * sizeof *first);
 	for (int i = 0; i < list->count; i++)
-		first[lowest_rank(s, list, i) + 1]++;
+		first[span_of(s, list, i).low + 1]++;
 	for (int r = 0; r < ranks; r++)
 		first[r + 1] += first[r];
 	for (int i = 0; i < list->count; i++)
-		s->sorted[first[lowest_rank(s, list, i)]++] = i;
+		s->sorted[first[span_of(s, list, i).low]++] = i;
 }
 
 /* The first colour that none of its particles has yet. Beyond the last one: the last, in which
@@ -74,26 +124,38 @@ static int take_colour(uint64_t *taken, const int *v, int arity)
 	return colour;
 }
 
-/* Into `order`: constraints by colour, within a colour by neighbourhood. Two of one colour share no
- * particle (but in the last). */
-static void colour(struct cloth *cloth, const struct list *list, int *order, int first[COLOURS + 1])
+/* Two constraints of a group and a colour share no particle (but in the last). Strips share none
+ * either, nor do cuts, so that all strips are coloured at once and then all cuts. */
+static void colour(struct cloth *cloth, const struct list *list, bool cuts)
 {
 	struct cloth_scratch *s = cloth->scratch;
-	int place[COLOURS];
-	sort_by_rank(cloth, list);
 	memset(s->taken, 0, (size_t)cloth->garment->vertex_count * sizeof *s->taken);
-	memset(first, 0, (COLOURS + 1) * sizeof *first);
 	for (int i = 0; i < list->count; i++) {
+		int group = group_of(s, list, s->sorted[i]);
 		const int *v = list->corner + (size_t)s->sorted[i] * (size_t)list->stride;
-		s->colour[i] = (uint8_t)take_colour(s->taken, v, list->arity);
-		first[s->colour[i] + 1]++;
+		if ((group >= s->strip_count) != cuts)
+			continue;
+		int colour = take_colour(s->taken, v, list->arity);
+		s->key[i] = (uint16_t)(COLOURS * group + colour);
 	}
-	for (int c = 0; c < COLOURS; c++) {
-		place[c] = first[c];
-		first[c + 1] += first[c];
+}
+
+static void put_in_order(struct cloth *cloth, const struct list *list, struct order *order)
+{
+	struct cloth_scratch *s = cloth->scratch;
+	int keys = GROUPS_MAX * COLOURS, place[GROUPS_MAX * COLOURS];
+	sort_by_rank(cloth, list);
+	colour(cloth, list, false);
+	colour(cloth, list, true);
+	memset(order->first, 0, sizeof order->first);
+	for (int i = 0; i < list->count; i++)
+		order->first[s->key[i] + 1]++;
+	for (int key = 0; key < keys; key++) {
+		place[key] = order->first[key];
+		order->first[key + 1] += order->first[key];
 	}
 	for (int i = 0; i < list->count; i++)
-		order[place[s->colour[i]]++] = s->sorted[i];
+		order->item[place[s->key[i]]++] = s->sorted[i];
 }
 
 void cloth_order(struct cloth *cloth)
@@ -103,25 +165,29 @@ void cloth_order(struct cloth *cloth)
 	struct list triangles = {cloth->triangle[0].v, 3, 3, cloth->garment->triangle_count};
 	struct list flats = {cloth->flat[0].v, 4, sizeof(struct flat) / sizeof(int),
 			     cloth->flat_count};
-	colour(cloth, &triangles, s->triangle_order, s->triangle_colour);
-	colour(cloth, &flats, s->flat_order, s->flat_colour);
+	s->strip_count = strips_for(s->ranked_count,
+				    int_max(reach_of(s, &triangles), reach_of(s, &flats)));
+	put_in_order(cloth, &triangles, &s->triangles);
+	put_in_order(cloth, &flats, &s->flats);
 	s->stale = true;
 }
 
 /* ---- whenever cloth is placed ---- */
 
-/* Unit triangles far from nothing: the kernels may work on them, nobody reads them. */
+/* Every strip's pads are unit triangles: the kernels may work on them, nobody reads them. */
 static void fill_pads(struct cloth_scratch *s)
 {
-	for (int i = 0; i < PADS; i++)
-		s->place[i] = (struct place){(float)(i / BATCH == 1), (float)(i / BATCH == 2), 0.0f,
+	for (int i = 0; i < SLOT_FIRST; i++) {
+		int corner = i % PADS / BATCH;
+		s->place[i] = (struct place){(float)(corner == 1), (float)(corner == 2), 0.0f,
 					     0.0f};
+	}
 }
 
 static void take_slots(struct cloth *cloth)
 {
 	struct cloth_scratch *s = cloth->scratch;
-	s->slot_count = PADS;
+	s->slot_count = SLOT_FIRST;
 	for (int v = 0; v < cloth->garment->vertex_count; v++)
 		s->slot[v] = -1;
 	for (int r = 0; r < s->ranked_count; r++) {
@@ -145,71 +211,76 @@ static void put_shape(struct shape_batch *batch, int lane, const struct rest *re
 	}
 }
 
-/* A new batch, all of whose lanes are pads. */
-static struct shape_batch *open_shape(struct cloth_scratch *s)
+/* A new batch, all of whose lanes are pads of strip `strip`. */
+static struct shape_batch *open_shape(struct shape_batch *batch, int strip)
 {
 	static const struct rest unit = {{1.0f, 0.0f, 1.0f}, {0.0f, 1.0f, 0.0f}};
-	struct shape_batch *batch = &s->shape[s->shape_count++];
+	int pad = PADS * strip;
 	for (int lane = 0; lane < BATCH; lane++)
-		put_shape(batch, lane, &unit, (int[3]){lane, BATCH + lane, 2 * BATCH + lane});
+		put_shape(batch, lane, &unit,
+			  (int[3]){pad + lane, pad + BATCH + lane, pad + 2 * BATCH + lane});
 	return batch;
+}
+
+/* A group's triangles of one colour, or singly those of the last, into batches from s->shape[at]
+ * on. Returns behind which. */
+static int take_colour_shapes(struct cloth *cloth, int key, int at)
+{
+	struct cloth_scratch *s = cloth->scratch;
+	struct shape_batch *batch = NULL;
+	int lane = BATCH, strip = key / COLOURS % s->strip_count;
+	bool singly = key % COLOURS == COLOURS - 1;
+	for (int i = s->triangles.first[key]; i < s->triangles.first[key + 1]; i++) {
+		int t = s->triangles.item[i];
+		const int *v = cloth->triangle[t].v;
+		if (!triangle_placed(cloth, t))
+			continue;
+		if ((lane == BATCH || singly) && at < SHAPE_BATCHES_MAX) {
+			batch = open_shape(&s->shape[at++], strip);
+			lane = 0;
+		}
+		if (lane < BATCH)
+			put_shape(batch, lane++, &s->rest[t],
+				  (int[3]){s->slot[v[0]], s->slot[v[1]], s->slot[v[2]]});
+	}
+	return at;
 }
 
 static void take_shapes(struct cloth *cloth)
 {
 	struct cloth_scratch *s = cloth->scratch;
-	s->shape_count = 0;
-	for (int c = 0; c < COLOURS; c++) {
-		struct shape_batch *batch = NULL;
-		int lane = BATCH;
-		for (int i = s->triangle_colour[c]; i < s->triangle_colour[c + 1]; i++) {
-			int t = s->triangle_order[i];
-			const int *v = cloth->triangle[t].v;
-			if (!triangle_placed(cloth, t))
-				continue;
-			if (lane == BATCH || c == COLOURS - 1) {
-				batch = open_shape(s);
-				lane = 0;
-			}
-			put_shape(batch, lane++, &s->rest[t],
-				  (int[3]){s->slot[v[0]], s->slot[v[1]], s->slot[v[2]]});
-		}
+	for (int g = 0, at = 0; g <= GROUPS_MAX; g++) {
+		s->shape_first[g] = at;
+		for (int c = 0; g < GROUPS_MAX && c < COLOURS; c++)
+			at = take_colour_shapes(cloth, COLOURS * g + c, at);
 	}
 }
 
-static struct flat_batch *open_flat(struct cloth_scratch *s)
+static bool take_bend(const struct cloth *cloth, int f, struct bend *bend)
 {
-	struct flat_batch *batch = &s->flat[s->flat_count++];
-	memset(batch, 0, sizeof *batch);
-	for (int lane = 0; lane < BATCH; lane++)
-		for (int k = 0; k < 4; k++)
-			batch->at[lane][k] = place_offset(lane);
-	return batch;
+	const struct cloth_scratch *s = cloth->scratch;
+	const struct flat *flat = &cloth->flat[f];
+	for (int k = 0; k < 4; k++) {
+		int slot = s->slot[flat->v[k]];
+		if (slot < 0)
+			return false;
+		bend->at[k] = place_offset(slot);
+		bend->k[k] = flat->k[k];
+	}
+	bend->firm = s->stiff[flat->v[0]] && s->stiff[flat->v[1]] ? FIRM_SHARE : 0.0f;
+	return true;
 }
 
-static void take_flats(struct cloth *cloth)
+static void take_bends(struct cloth *cloth)
 {
 	struct cloth_scratch *s = cloth->scratch;
-	s->flat_count = 0;
-	for (int c = 0; c < COLOURS; c++) {
-		struct flat_batch *batch = NULL;
-		int lane = BATCH;
-		for (int i = s->flat_colour[c]; i < s->flat_colour[c + 1]; i++) {
-			const struct flat *flat = &cloth->flat[s->flat_order[i]];
-			const int *v = flat->v;
-			if (s->slot[v[0]] < 0 || s->slot[v[1]] < 0 || s->slot[v[2]] < 0 ||
-			    s->slot[v[3]] < 0)
-				continue;
-			if (lane == BATCH || c == COLOURS - 1) {
-				batch = open_flat(s);
-				lane = 0;
-			}
-			for (int k = 0; k < 4; k++) {
-				batch->at[lane][k] = place_offset(s->slot[v[k]]);
-				batch->k[lane][k] = flat->k[k];
-			}
-			batch->firm[lane++] = s->stiff[v[0]] && s->stiff[v[1]] ? FIRM_SHARE : 0.0f;
-		}
+	for (int g = 0, at = 0; g <= GROUPS_MAX; g++) {
+		s->bend_first[g] = at;
+		if (g == GROUPS_MAX)
+			return;
+		int end = s->flats.first[COLOURS * (g + 1)];
+		for (int i = s->flats.first[COLOURS * g]; i < end; i++)
+			at += take_bend(cloth, s->flats.item[i], &s->bend[at]);
 	}
 }
 
@@ -224,6 +295,6 @@ void cloth_take(struct cloth *cloth)
 	fill_pads(s);
 	take_slots(cloth);
 	take_shapes(cloth);
-	take_flats(cloth);
+	take_bends(cloth);
 	cloth_take_levels(cloth);
 }

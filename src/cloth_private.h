@@ -6,10 +6,12 @@
 #include "cloth_kernel.h"
 
 enum {
-	COLOURS = 64, /* of constraints; the last holds what found no other and is worked singly */
+	STRIPS_MAX = 32,
+	GROUPS_MAX = 2 * STRIPS_MAX - 1, /* of constraints: strips, and the cuts between them */
+	COLOURS = 64, /* of a group; the last holds what found no other and is worked singly */
 	SINGLES = 64, /* constraints of the last colour that are still worked */
-	SHAPE_BATCHES_MAX = GARMENT_TRIANGLES_MAX / BATCH + COLOURS + SINGLES,
-	FLAT_BATCHES_MAX = GARMENT_EDGES_MAX / BATCH + COLOURS + SINGLES,
+	SHAPE_BATCHES_MAX = GARMENT_TRIANGLES_MAX / BATCH + GROUPS_MAX * COLOURS + SINGLES,
+	SLOT_FIRST = STRIPS_MAX * PADS, /* every strip has its own pads */
 	LEVELS = 2,
 	LEVEL_PASSES = 2,
 	LEVEL_NODES_MAX = GARMENT_VERTICES_MAX / 8,
@@ -66,27 +68,34 @@ struct contact_stage {
 	unsigned piece_parts[PIECES_MAX];
 };
 
+/* Constraints of a kind in the order in which they are worked: by group, in a group by colour, in a
+ * colour by neighbourhood. */
+struct order {
+	int *item;
+	int first[GROUPS_MAX * COLOURS + 1]; /* in item, of each group's colours */
+};
+
 struct cloth_scratch {
 	struct rest *rest; /* per triangle */
 
 	/* the order of work (cloth_order.c) */
 	int ranked_count; /* particles by neighbourhood */
 	int *ranked, *rank;
-	int *triangle_order, *flat_order; /* by colour */
-	int triangle_colour[COLOURS + 1], flat_colour[COLOURS + 1];
-	int *sorted;     /* while constraints are coloured */
-	uint64_t *taken; /* per particle: its colours */
-	uint8_t *colour;
+	int strip_count;
+	struct order triangles, flats;
+	int *sorted;           /* while constraints are coloured */
+	uint64_t *taken;       /* per particle: its colours */
+	uint16_t *key;         /* per constraint in sorted: COLOURS * group + colour */
 	bool stale;            /* the batches are not of this mesh */
 	uint8_t *taken_placed; /* cloth.placed when they were filled */
-	int slot_count;        /* placed particles as the kernels see them; PADS first */
+	int slot_count;        /* placed particles as the kernels see them; pads first */
 	int *slot;             /* per vertex, -1: not placed */
 	int *slot_vertex;
 	struct place *place; /* per slot */
 	struct shape_batch *shape;
-	int shape_count;
-	struct flat_batch *flat;
-	int flat_count;
+	int shape_first[GROUPS_MAX + 1];
+	struct bend *bend;
+	int bend_first[GROUPS_MAX + 1];
 
 	/* coarse levels (cloth_level.c) */
 	struct level level[LEVELS];
@@ -150,6 +159,7 @@ void cloth_take_levels(struct cloth *cloth);
 
 /* The parts of a sweep; each returns the units it spent. */
 long cloth_levels(struct cloth *cloth);  /* taut cloth pulls, coarse levels first */
+long cloth_shape(struct cloth *cloth);   /* triangles and edges to their rest shapes */
 long cloth_contact(struct cloth *cloth); /* vertices out of the body, friction */
 long cloth_contact_faces(struct cloth *cloth, int slice, int slices); /* midpoints and centres */
 

@@ -126,10 +126,11 @@ static void kernels(void)
 		double shape = 1.0, flat = 1.0;
 		for (int lap = 0; lap < LAPS; lap++) {
 			double start = thread_s();
-			kernel->shape(s->place, s->shape, s->shape_count, 0.9f, 1.0f, false);
+			kernel->shape(s->place, s->shape, s->shape_first[GROUPS_MAX], 0.9f, 1.0f,
+				      false);
 			shape = best_s(shape, start);
 			start = thread_s();
-			kernel->flatten(s->place, s->flat, s->flat_count, 0.02f, false);
+			kernel->flatten(s->place, s->bend, s->bend_first[GROUPS_MAX], 0.02f, false);
 			flat = best_s(flat, start);
 		}
 		printf("  %d lanes: %6.1f M triangles/s  %6.1f M edges/s\n", forms[f],

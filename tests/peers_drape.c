@@ -103,10 +103,10 @@ static void kernels(struct cloth *cloth, int lanes, double shape_target, double 
 	double shape_ms = 1e9, flat_ms = 1e9;
 	for (int lap = 0; lap < LAPS; lap++) {
 		double start = peers_ms();
-		kernel->shape(s->place, s->shape, s->shape_count, 0.9f, 1.0f, false);
+		kernel->shape(s->place, s->shape, s->shape_first[GROUPS_MAX], 0.9f, 1.0f, false);
 		shape_ms = least(shape_ms, start);
 		start = peers_ms();
-		kernel->flatten(s->place, s->flat, s->flat_count, 0.02f, false);
+		kernel->flatten(s->place, s->bend, s->bend_first[GROUPS_MAX], 0.02f, false);
 		flat_ms = least(flat_ms, start);
 	}
 	struct peers_row row = {.unit = "M/s",
