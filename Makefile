@@ -36,7 +36,7 @@ DRIVER_VOCABULARY := arena base bone edit input journal limits pattern triangle 
 # libm function whose last bit differs between systems.
 CORE_IMPORTS := memcpy memset memmove memcmp strlen sqrtf must_fail
 
-CFLAGS_common   := -std=c17 -D_GNU_SOURCE -g -MMD -MP -ffp-contract=off -fno-strict-aliasing \
+CFLAGS_common   := -std=c17 -D_GNU_SOURCE -g -MMD -MP -ffp-contract=off -fno-math-errno -fno-strict-aliasing \
                    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes \
                    -Wmissing-prototypes -Wvla -Wdouble-promotion -Wimplicit-fallthrough \
                    $(if $(werror),-Werror)

@@ -37,8 +37,6 @@ static void init_levels(struct cloth_scratch *s, struct arena *arena)
 		members = LEVEL_NODES_MAX;
 	}
 	s->slot_spread = ARENA_ARRAY(arena, struct spread, SLOT_FIRST + GARMENT_VERTICES_MAX);
-	s->star_first = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX + 2);
-	s->star = ARENA_ARRAY(arena, int, 3 * GARMENT_TRIANGLES_MAX);
 	s->member = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
 	s->member_at = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
 	s->node_at = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
@@ -61,14 +59,15 @@ void cloth_init(struct cloth *cloth, struct arena *arena)
 	cloth->goal_m = ARENA_ARRAY(arena, struct v3, GARMENT_VERTICES_MAX);
 	cloth->particle = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
 	cloth->triangle = ARENA_ARRAY(arena, struct triangle, GARMENT_TRIANGLES_MAX);
+	cloth->star_first = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX + 2);
+	cloth->star = ARENA_ARRAY(arena, int, 3 * GARMENT_TRIANGLES_MAX);
+	cloth->ring = ARENA_ARRAY(arena, int, 6 * GARMENT_TRIANGLES_MAX);
 	cloth->flat = ARENA_ARRAY(arena, struct flat, GARMENT_EDGES_MAX);
 	struct cloth_scratch *s = ARENA_ARRAY(arena, struct cloth_scratch, 1);
 	s->rest = ARENA_ARRAY(arena, struct rest, GARMENT_TRIANGLES_MAX);
 	s->edge_first = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX + 2);
 	s->edge_triangle = ARENA_ARRAY(arena, int, 3 * GARMENT_TRIANGLES_MAX);
 	s->flipped = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
-	s->ring_first = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX + 2);
-	s->ring = ARENA_ARRAY(arena, int, 6 * GARMENT_TRIANGLES_MAX);
 	s->smooth_m = ARENA_ARRAY(arena, struct v3, GARMENT_VERTICES_MAX);
 	s->edge_owner = ARENA_ARRAY(arena, uint8_t, GARMENT_TRIANGLES_MAX);
 	s->stiff = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);

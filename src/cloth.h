@@ -53,7 +53,10 @@ struct cloth {
 	bool piece_drawn[PIECES_MAX];     /* attract_m works on this piece */
 	int *particle;                    /* per vertex: itself, or weld[] once welded */
 	struct triangle *triangle;        /* through particle[] */
-	int flat_count;                   /* edges of two triangles */
+	int *star_first; /* per particle + 1: its corners are star[star_first[v] ..], */
+	int *star;       /* triangle * 4 + corner */
+	int *ring;       /* 2 per entry of star: the triangle's next particle and the one after */
+	int flat_count;  /* edges of two triangles */
 	struct flat *flat;
 	int fabric;        /* fabric_at: what a worn garment is made of */
 	int lanes;         /* 1, 4 or 8: numbers that the processor works at once; same bits */

@@ -115,37 +115,25 @@ static void pair_edges(struct cloth *cloth)
 			}
 }
 
-static void build_rings(struct cloth *cloth)
-{
-	struct cloth_scratch *s = cloth->scratch;
-	int vertices = cloth->garment->vertex_count, triangles = cloth->garment->triangle_count;
-	memset(s->ring_first, 0, (size_t)(vertices + 2) * sizeof *s->ring_first);
-	for (int pass = 0; pass < 2; pass++) {
-		for (int t = 0; t < triangles; t++)
-			for (int k = 0; k < 6; k++) {
-				const int *v = cloth->triangle[t].v;
-				int a = v[k % 3], b = v[(k % 3 + 1 + k / 3) % 3];
-				if (pass == 0)
-					s->ring_first[a + 2]++;
-				else
-					s->ring[s->ring_first[a + 1]++] = b;
-			}
-		for (int v = 0; pass == 0 && v < vertices; v++)
-			s->ring_first[v + 2] += s->ring_first[v + 1];
-	}
-}
-
+/* Every particle's triangles, and its neighbours in them. */
 static void build_stars(struct cloth *cloth)
 {
-	struct cloth_scratch *s = cloth->scratch;
 	int vertices = cloth->garment->vertex_count, triangles = cloth->garment->triangle_count;
-	memset(s->star_first, 0, (size_t)(vertices + 2) * sizeof *s->star_first);
-	for (int i = 0; i < 3 * triangles; i++)
-		s->star_first[cloth->triangle[i / 3].v[i % 3] + 2]++;
+	int *first = cloth->star_first;
+	memset(first, 0, (size_t)(vertices + 2) * sizeof *first);
+	for (int t = 0; t < triangles; t++)
+		for (int k = 0; k < 3; k++)
+			first[cloth->triangle[t].v[k] + 2]++;
 	for (int v = 0; v < vertices; v++)
-		s->star_first[v + 2] += s->star_first[v + 1];
-	for (int i = 0; i < 3 * triangles; i++)
-		s->star[s->star_first[cloth->triangle[i / 3].v[i % 3] + 1]++] = i;
+		first[v + 2] += first[v + 1];
+	for (int t = 0; t < triangles; t++)
+		for (int k = 0; k < 3; k++) {
+			const int *v = cloth->triangle[t].v;
+			int i = first[v[k] + 1]++;
+			cloth->star[i] = 4 * t + k;
+			cloth->ring[2 * i] = v[(k + 1) % 3];
+			cloth->ring[2 * i + 1] = v[(k + 2) % 3];
+		}
 }
 
 void cloth_build(struct cloth *cloth)
@@ -154,7 +142,6 @@ void cloth_build(struct cloth *cloth)
 	take_particles(cloth);
 	list_edges(cloth);
 	pair_edges(cloth);
-	build_rings(cloth);
 	build_stars(cloth);
 	cloth_order(cloth);
 	cloth_build_levels(cloth);

@@ -49,9 +49,10 @@ static void flag_ring(struct cloth *cloth)
 {
 	struct cloth_scratch *s = cloth->scratch;
 	for (int v = 0; v < cloth->garment->vertex_count; v++)
-		for (int i = s->ring_first[v]; s->flipped[v] == 1 && i < s->ring_first[v + 1]; i++)
-			if (!s->flipped[s->ring[i]] && !cloth->creased[s->ring[i]])
-				s->flipped[s->ring[i]] = 2;
+		for (int i = 2 * cloth->star_first[v];
+		     s->flipped[v] == 1 && i < 2 * cloth->star_first[v + 1]; i++)
+			if (!s->flipped[cloth->ring[i]] && !cloth->creased[cloth->ring[i]])
+				s->flipped[cloth->ring[i]] = 2;
 }
 
 /* Laplacian steps on the flagged particles; those at a rim slide along the rim only, because the
@@ -61,7 +62,7 @@ static void smooth(struct cloth *cloth)
 {
 	struct cloth_scratch *s = cloth->scratch;
 	for (int v = 0; v < cloth->garment->vertex_count; v++) {
-		int first = s->ring_first[v], end = s->ring_first[v + 1];
+		int first = 2 * cloth->star_first[v], end = 2 * cloth->star_first[v + 1];
 		if (!s->flipped[v] || !is_particle(cloth, v) || first == end)
 			continue;
 		struct v3 all = {0.0f, 0.0f, 0.0f}, rim = {0.0f, 0.0f, 0.0f};
@@ -69,10 +70,10 @@ static void smooth(struct cloth *cloth)
 		for (int i = first; i < end; i++) {
 			int times = 0;
 			for (int j = first; j < end; j++)
-				times += s->ring[j] == s->ring[i];
-			all = v3_add(all, cloth->position_m[s->ring[i]]);
+				times += cloth->ring[j] == cloth->ring[i];
+			all = v3_add(all, cloth->position_m[cloth->ring[i]]);
 			if (times == 1) {
-				rim = v3_add(rim, cloth->position_m[s->ring[i]]);
+				rim = v3_add(rim, cloth->position_m[cloth->ring[i]]);
 				rims++;
 			}
 		}

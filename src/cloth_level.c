@@ -103,10 +103,11 @@ static float unfolded_way(struct v2 p, struct v2 r, struct v2 q, float at_p, flo
 static void pass_on(struct march *march, int p)
 {
 	struct cloth_scratch *s = march->s;
-	const struct garment *garment = march->cloth->garment;
-	for (int i = s->star_first[p]; i < s->star_first[p + 1]; i++) {
-		int t = s->star[i] / 3, k = s->star[i] % 3;
-		const int *corner = garment->triangle[t].v, *v = march->cloth->triangle[t].v;
+	const struct cloth *cloth = march->cloth;
+	const struct garment *garment = cloth->garment;
+	for (int i = cloth->star_first[p]; i < cloth->star_first[p + 1]; i++) {
+		int t = cloth->star[i] >> 2, k = cloth->star[i] & 3;
+		const int *corner = garment->triangle[t].v, *v = cloth->triangle[t].v;
 		for (int side = 1; side < 3; side++) {
 			int a = (k + side) % 3, b = (k + 3 - side) % 3;
 			struct v2 at = garment->rest_m[corner[k]], to = garment->rest_m[corner[a]];

@@ -22,8 +22,9 @@ static void rank_particles(struct cloth *cloth)
 		s->rank[seed] = count++;
 		for (int at = s->rank[seed]; at < count; at++) {
 			int v = s->ranked[at];
-			for (int i = s->ring_first[v]; i < s->ring_first[v + 1]; i++) {
-				int w = s->ring[i];
+			for (int i = 2 * cloth->star_first[v]; i < 2 * cloth->star_first[v + 1];
+			     i++) {
+				int w = cloth->ring[i];
 				if (s->rank[w] >= 0)
 					continue;
 				s->ranked[count] = w;

@@ -100,18 +100,16 @@ struct cloth_scratch {
 	/* coarse levels (cloth_level.c) */
 	struct level level[LEVELS];
 	struct spread *slot_spread;
-	int *star_first, *star; /* per particle: triangle * 3 + corner */
 	int *member, *member_at, *node_at;
 	uint8_t *covered;
 	float *way_m; /* per particle, from the node that marches */
 	int *way_of, way_now;
 	int *heap, *heap_at;
 
-	int *edge_first;        /* per vertex + 1, while edges are paired */
-	int *edge_triangle;     /* triangle * 3 + corner */
-	uint8_t *flipped;       /* per particle, while folds are turned back */
-	int fold_count;         /* found since the first slice of triangles */
-	int *ring_first, *ring; /* neighbours of particles */
+	int *edge_first;    /* per vertex + 1, while edges are paired */
+	int *edge_triangle; /* triangle * 3 + corner */
+	uint8_t *flipped;   /* per particle, while folds are turned back */
+	int fold_count;     /* found since the first slice of triangles */
 	struct v3 *smooth_m;
 	uint8_t *edge_owner; /* per triangle: bit k: edge k is looked at here, not in its neighbour
 			      */

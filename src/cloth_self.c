@@ -151,15 +151,14 @@ static int side_of(const struct cloth *cloth, int v, int t, const struct over *o
 /* Marks the particle and two rings round it: they can't touch it. */
 static void stamp_rings(struct cloth *cloth, int v)
 {
-	const struct cloth_scratch *s = cloth->scratch;
 	int *stamp = cloth->self->stamp;
 	stamp[v] = v;
-	for (int i = s->ring_first[v]; i < s->ring_first[v + 1]; i++) {
-		int w = s->ring[i];
+	for (int i = 2 * cloth->star_first[v]; i < 2 * cloth->star_first[v + 1]; i++) {
+		int w = cloth->ring[i];
 		if (stamp[w] == v)
 			continue;
-		for (int j = s->ring_first[w]; j < s->ring_first[w + 1]; j++)
-			stamp[s->ring[j]] = v;
+		for (int j = 2 * cloth->star_first[w]; j < 2 * cloth->star_first[w + 1]; j++)
+			stamp[cloth->ring[j]] = v;
 	}
 }
 

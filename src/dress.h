@@ -100,8 +100,8 @@ struct drag {
 void drag_init(struct drag *drag, struct arena *arena);
 
 /* Takes hold of a point of the worn cloth. Pins (pin_count places, unused ones skipped) block the
- * graph and are sources of zero. */
-void drag_begin(struct drag *drag, struct cloth *cloth, const struct pin *pins, int pin_count,
+ * graph and are sources of zero. Returns units spent. */
+long drag_begin(struct drag *drag, struct cloth *cloth, const struct pin *pins, int pin_count,
 		int triangle, const float weight[3]);
 
 /* Moves the grabbed point towards target_m (in space; the way is laid along the body's surface), at

@@ -12,14 +12,13 @@ static const float rest_near_m = 0.04f;   /* cloth farther from the body rests o
 /* Marks particles in the triangles round every particle of the mark before. */
 static void grow(struct drag *drag, uint8_t mark)
 {
-	const struct front *front = &drag->scratch->front;
 	struct cloth *cloth = drag->cloth;
+	const int *first = cloth->star_first;
 	for (int j = 0; j < drag->order_count; j++) {
 		int a = drag->order[j];
-		for (int i = front->first[a]; cloth->creased[a] == mark && i < front->first[a + 1];
-		     i++)
+		for (int i = first[a]; cloth->creased[a] == mark && i < first[a + 1]; i++)
 			for (int k = 0; k < 3; k++) {
-				int b = cloth->triangle[front->corner[i] >> 2].v[k];
+				int b = cloth->triangle[cloth->star[i] >> 2].v[k];
 				if (!cloth->creased[b])
 					cloth->creased[b] = (uint8_t)(mark + 1);
 			}
@@ -45,9 +44,12 @@ void drag_crease(struct drag *drag)
 
 void drag_open_creases(struct drag *drag)
 {
-	for (int j = 0; j < drag->order_count; j++)
-		if (drag->distance_m[drag->order[j]] < hand_span_m)
-			drag->cloth->creased[drag->order[j]] = 0;
+	for (int j = 0; j < drag->order_count; j++) {
+		int a = drag->order[j];
+		if (drag->distance_m[a] >= hand_span_m)
+			break;
+		drag->cloth->creased[a] = 0;
+	}
 }
 
 void crease_rest(struct cloth *cloth, const struct v3 *start_m)

@@ -26,9 +26,7 @@ void drag_init(struct drag *drag, struct arena *arena)
 	drag->share = ARENA_ARRAY(arena, float, GARMENT_VERTICES_MAX);
 	struct drag_scratch *scratch = ARENA_ARRAY(arena, struct drag_scratch, 1);
 	struct front *front = &scratch->front;
-	front->first = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX + 2);
-	front->corner = ARENA_ARRAY(arena, int, 3 * GARMENT_TRIANGLES_MAX);
-	front->way_m = ARENA_ARRAY(arena, float, 3 * GARMENT_TRIANGLES_MAX);
+	front->way2_m2 = ARENA_ARRAY(arena, float, 4 * GARMENT_TRIANGLES_MAX);
 	front->state = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
 	front->giver = ARENA_ARRAY(arena, struct giver, GARMENT_VERTICES_MAX);
 	front->place = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
@@ -76,20 +74,26 @@ static void take_grip(struct drag *drag)
 	}
 }
 
+/* Whose corner 0 is near is looked at by that corner, so each triangle once. */
 static void list_near(struct drag *drag)
 {
 	struct drag_scratch *s = drag->scratch;
+	const struct cloth *cloth = drag->cloth;
 	s->near_count = 0;
-	for (int t = 0; t < drag->cloth->garment->triangle_count; t++) {
-		const int *v = drag->cloth->triangle[t].v;
-		bool near = true;
-		for (int k = 0; k < 3; k++)
-			near &= drag->distance_m[v[k]] >= 0.0f &&
-				drag->distance_m[v[k]] <= hand_region_m;
-		if (!near)
-			continue;
-		s->near_stretch[s->near_count] = cloth_stretch(drag->cloth, t);
-		s->near_triangle[s->near_count++] = t;
+	for (int j = 0; j < drag->order_count; j++) {
+		int a = drag->order[j];
+		if (drag->distance_m[a] > hand_region_m)
+			break;
+		for (int i = cloth->star_first[a]; i < cloth->star_first[a + 1]; i++) {
+			int t = cloth->star[i] >> 2;
+			const int *v = cloth->triangle[t].v;
+			float b_m = drag->distance_m[v[1]], c_m = drag->distance_m[v[2]];
+			if (v[0] != a || b_m < 0.0f || b_m > hand_region_m || c_m < 0.0f ||
+			    c_m > hand_region_m)
+				continue;
+			s->near_stretch[s->near_count] = cloth_stretch(cloth, t);
+			s->near_triangle[s->near_count++] = t;
+		}
 	}
 }
 
@@ -107,7 +111,7 @@ static void hold_grabbed(struct drag *drag, bool hold)
 	}
 }
 
-void drag_begin(struct drag *drag, struct cloth *cloth, const struct pin *pins, int pin_count,
+long drag_begin(struct drag *drag, struct cloth *cloth, const struct pin *pins, int pin_count,
 		int triangle, const float weight[3])
 {
 	drag->active = true;
@@ -116,11 +120,12 @@ void drag_begin(struct drag *drag, struct cloth *cloth, const struct pin *pins, 
 	drag->triangle = triangle;
 	memcpy(drag->weight, weight, sizeof drag->weight);
 
-	drag_build_graph(drag, pins, pin_count);
+	long units = drag_build_graph(drag, pins, pin_count);
 	take_grip(drag);
 	list_near(drag);
 	drag_open_creases(drag);
 	hold_grabbed(drag, true);
+	return units;
 }
 
 void drag_end(struct drag *drag)

@@ -4,14 +4,13 @@
 
 #include "dress.h"
 
-enum { AHEAD, PASSED, STOPPED }; /* a particle, as the front sees it */
+/* A particle, as the front sees it; bits, so that two at once are one comparison. */
+enum { AHEAD = 1, PASSED = 2, STOPPED = 4, NO_CLOTH = 8 };
 
 /* The march of distance over the cloth (dress_drag_front.c). */
 struct front {
 	const struct cloth *cloth;
-	int *first;   /* per particle + 2: its corners are corner[first[v] .. first[v + 1]) */
-	int *corner;  /* triangle * 4 + corner */
-	float *way_m; /* 3 per triangle: from corner k to the next along the body; below 0: none */
+	float *way2_m2; /* 4 per triangle: squared way along the body from corner k to the next */
 	uint8_t *state;
 	struct giver *giver; /* per particle */
 	float *distance_m;   /* of the march under way */
@@ -57,7 +56,8 @@ void drag_crease(struct drag *drag);
 void drag_open_creases(struct drag *drag);
 
 /* Who hands the motion on to whom, and what the pins leave of it, seen from the grabbed point:
- * fills order, distance_m, giver and share of the drag (dress_drag_graph.c). */
-void drag_build_graph(struct drag *drag, const struct pin *pins, int pin_count);
+ * fills order, distance_m, giver and share of the drag (dress_drag_graph.c). Returns units spent.
+ */
+long drag_build_graph(struct drag *drag, const struct pin *pins, int pin_count);
 
 #endif

@@ -10,6 +10,11 @@ enum { LANES = 4 };
 typedef float lanes __attribute__((vector_size(16)));
 typedef int32_t lane_mask __attribute__((vector_size(16))); /* -1: yes, 0: no */
 
+/* Lanes of a (0 to 3) and of b (4 to 7). */
+#define LANES_LOW(a, b) __builtin_shufflevector(a, b, 0, 4, 1, 5)
+#define LANES_HIGH(a, b) __builtin_shufflevector(a, b, 2, 6, 3, 7)
+#define LANES_JOIN(a, b, i, j, k) __builtin_shufflevector(a, b, i, j, k, k)
+
 struct lanes3 {
 	lanes x, y, z;
 };
@@ -27,6 +32,11 @@ static inline lanes lanes_select(lane_mask mask, lanes yes, lanes no)
 static inline lanes lanes_min(lanes a, lanes b)
 {
 	return lanes_select(a < b, a, b);
+}
+
+static inline lanes lanes_max(lanes a, lanes b)
+{
+	return lanes_select(a > b, a, b);
 }
 
 static inline lanes lanes_above_zero(lanes a)

@@ -57,6 +57,7 @@ struct session {
 	int frame;                  /* frames advanced */
 	int vertices_wanted;        /* mesh resolution for the next wrap */
 	long budget_units;          /* per frame */
+	long edit_units;            /* by edits since the last frame: the next one pays */
 	long work_units;            /* spent so far */
 	long frame_units;           /* spent in the last frame */
 	int untouched_frames;       /* since an edit last woke the cloth */

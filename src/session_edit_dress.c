@@ -274,8 +274,8 @@ static const char *grab(struct session *session, const struct edit *edit)
 		return why;
 	session_release(session);
 	undo_keep(session);
-	drag_begin(&session->drag, &session->cloth, session->document.pin,
-		   used_pins(session) > 0 ? PINS_MAX : 0, triangle, weight);
+	session->edit_units += drag_begin(&session->drag, &session->cloth, session->document.pin,
+					  used_pins(session) > 0 ? PINS_MAX : 0, triangle, weight);
 	session->drag_target_m = drag_point(&session->drag);
 	return NULL;
 }

@@ -168,7 +168,8 @@ static struct cloth_settings settings_now(const struct session *session)
 static long advance_cloth(struct session *session)
 {
 	struct cloth *cloth = &session->cloth;
-	long units = 0;
+	long units = session->edit_units;
+	session->edit_units = 0;
 	cloth->settings = settings_now(session);
 	session->pause_frames++;
 	if (session->drag.active)

@@ -209,6 +209,27 @@ static void check_tracking(struct scene *scene, const struct worn *worn)
 	CHECK(edit(scene, EDIT_RELEASE, 0, 0.0f, 0.0f, 0.0f));
 }
 
+/* The frame after the pen's touch pays for it, so that it stays in its budget but for the last
+ * sweep. */
+static void check_units(struct scene *scene, const struct worn *worn)
+{
+	struct session *session = &scene->session;
+	long vertices = session->garment.vertex_count, sweeps;
+	for (int tight = 0; tight < 2; tight++) {
+		put_back(scene, worn);
+		if (tight)
+			session->budget_units = 60 * vertices;
+		CHECK(edit(scene, EDIT_GRAB, 0, 0.0f, -640.0f, 0.0f));
+		frames(scene, 1);
+		long touch = session->frame_units;
+		frames(scene, 1);
+		sweeps = session->frame_units;
+		CHECK(tight ? touch < 76 * vertices : touch > sweeps + 9 * vertices);
+		CHECK(edit(scene, EDIT_RELEASE, 0, 0.0f, 0.0f, 0.0f));
+	}
+	session->budget_units = 600000;
+}
+
 /* What the pins leave of the motion at a place; -1: the graph does not reach it. */
 static float share_at(const struct scene *scene, int piece, float x_mm, float y_mm)
 {
@@ -349,6 +370,7 @@ int main(void)
 	check_pull(scene, &worn, "up", (struct v3){0.0f, 0.10f, 0.0f}, 85.0f);
 	check_pull(scene, &worn, "down", (struct v3){0.0f, -0.10f, 0.0f}, 15.0f);
 	check_tracking(scene, &worn);
+	check_units(scene, &worn);
 	check_fence(scene, &worn);
 	check_roll_up(scene, &worn);
 	check_over_shoulder(scene);
