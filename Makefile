@@ -11,7 +11,7 @@
 # make format       clang-format everything; format-check only looks
 # make clean        remove build/
 #
-# config=  release (default), debug, sanitize, coverage, fuzz (with CC=clang)
+# config=  release (default), debug, sanitize, thread, coverage, fuzz (with CC=clang)
 # werror=1 warnings are errors;  CC=clang;  build=DIR instead of build;  V=1 shows whole commands
 
 config ?= release
@@ -43,6 +43,7 @@ CFLAGS_common   := -std=c17 -D_GNU_SOURCE -g -MMD -MP -ffp-contract=off -fno-mat
 CFLAGS_debug    := -O0
 CFLAGS_release  := -O2
 CFLAGS_sanitize := -O1 -fsanitize=address,undefined -fno-sanitize-recover=all
+CFLAGS_thread   := -O1 -fsanitize=thread
 CFLAGS_coverage := -O0 --coverage
 CFLAGS_fuzz     := -O1 -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all
 FLAGS           := $(CFLAGS_common) $(CFLAGS_$(config)) $(CFLAGS)
@@ -56,7 +57,7 @@ CORE := $(call sources,src)
 PURE := $(CORE) $(wildcard drivers/tape*.c) \
         $(wildcard drivers/pen*.c) \
         $(filter-out ui/draw%,$(call sources,ui)) \
-        $(wildcard firmware-host/kiosk*.c firmware-host/must.c)
+        $(wildcard firmware-host/kiosk*.c firmware-host/must.c firmware-host/threads.c)
 
 MAIN  := firmware-host/main.c
 LIB   := $(filter-out $(MAIN),$(foreach d,src drivers ui firmware-host,$(call sources,$d)))
@@ -104,7 +105,7 @@ $(B)/kitsuke.a: $(call objects,$(LIB))
 # qemu-user without a foreign system beside it.
 STATIC = $(if $(findstring sanitize,$(FLAGS)),,-static)
 $(B)/tests/replay_hash: $(call objects,tests/replay_hash.c $(PURE))
-	$(call SHORT,link)$(CC) $(FLAGS) $^ $(LDFLAGS) $(STATIC) -lm -o $@
+	$(call SHORT,link)$(CC) $(FLAGS) $^ $(LDFLAGS) $(STATIC) -lm -lpthread -o $@
 
 # The pure part is compiled without a single package on its include path.
 $(call objects,$(PURE) tests/replay_hash.c): PACKAGE_CFLAGS :=

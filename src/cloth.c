@@ -210,17 +210,26 @@ static void put_place(struct place *place, struct v3 p)
 	*place = (struct place){p.x, p.y, p.z, 0.0f};
 }
 
-static struct particles particles_of(const struct cloth *cloth)
+/* A part of the loop over all slots. */
+static struct particles particles_of(const struct cloth *cloth, int part, struct loop_part *slots)
 {
-	return (struct particles){cloth->scratch->slot_vertex + SLOT_FIRST, cloth->position_m,
+	struct cloth_scratch *s = cloth->scratch;
+	*slots = loop_part(s->slot_count - SLOT_FIRST, part);
+	slots->first += SLOT_FIRST;
+	return (struct particles){s->slot_vertex + slots->first, cloth->position_m,
 				  cloth->previous_m};
 }
 
+static void for_all_slots(struct cloth *cloth, crew_task *task)
+{
+	crew_run(cloth->crew, task, cloth, loop_parts(cloth->scratch->slot_count - SLOT_FIRST));
+}
+
 /* A far body pulls drawn pieces. */
-static void attract(struct cloth *cloth)
+static void attract(struct cloth *cloth, struct loop_part slots)
 {
 	struct cloth_scratch *s = cloth->scratch;
-	for (int slot = SLOT_FIRST; slot < s->slot_count; slot++) {
+	for (int slot = slots.first; slot < slots.first + slots.count; slot++) {
 		int v = s->slot_vertex[slot];
 		const struct contact *contact = &cloth->contact[v];
 		if (!cloth->piece_drawn[cloth->garment->piece[v]] || contact->triangle < 0 ||
@@ -232,16 +241,17 @@ static void attract(struct cloth *cloth)
 }
 
 /* Momentum, gravity and the pull of a far body. */
-static void predict(struct cloth *cloth)
+static void predict(void *context, int part)
 {
+	struct cloth *cloth = context;
 	const struct cloth_settings *set = &cloth->settings;
-	struct cloth_scratch *s = cloth->scratch;
-	struct particles particles = particles_of(cloth);
+	struct loop_part slots;
+	struct particles particles = particles_of(cloth, part, &slots);
 	kernel_of(cloth->lanes)
-		->predict(s->place + SLOT_FIRST, &particles, s->slot_count - SLOT_FIRST,
+		->predict(cloth->scratch->place + slots.first, &particles, slots.count,
 			  set->momentum, set->step_max_m, set->gravity_m);
 	if (set->attract_m > 0.0f)
-		attract(cloth);
+		attract(cloth, slots);
 }
 
 /* Both sides of a seam go half the way towards each other, at most seam_step_m in a sweep. */
@@ -267,10 +277,10 @@ static long close_seams(struct cloth *cloth)
 }
 
 /* Held particles go to their goals. */
-static void pull_held(struct cloth *cloth)
+static void pull_held(struct cloth *cloth, struct loop_part slots)
 {
 	struct cloth_scratch *s = cloth->scratch;
-	for (int slot = SLOT_FIRST; slot < s->slot_count; slot++) {
+	for (int slot = slots.first; slot < slots.first + slots.count; slot++) {
 		int v = s->slot_vertex[slot];
 		if (!cloth->held[v])
 			continue;
@@ -281,35 +291,36 @@ static void pull_held(struct cloth *cloth)
 }
 
 /* Into the public arrays again. */
-static void put_back(struct cloth *cloth)
+static void put_back(void *context, int part)
 {
-	struct cloth_scratch *s = cloth->scratch;
-	struct particles particles = particles_of(cloth);
+	struct cloth *cloth = context;
+	struct loop_part slots;
+	struct particles particles = particles_of(cloth, part, &slots);
+	pull_held(cloth, slots);
 	kernel_of(cloth->lanes)
-		->put_back(s->place + SLOT_FIRST, &particles, s->slot_count - SLOT_FIRST);
+		->put_back(cloth->scratch->place + slots.first, &particles, slots.count);
 }
 
 /* No particle goes farther than step_max_m in a sweep, so that none can pass through a limb. */
-static void bound_steps(struct cloth *cloth)
+static void bound_steps(void *context, int part)
 {
-	struct particles particles = particles_of(cloth);
-	kernel_of(cloth->lanes)
-		->bound(&particles, cloth->scratch->slot_count - SLOT_FIRST,
-			cloth->settings.step_max_m);
+	struct cloth *cloth = context;
+	struct loop_part slots;
+	struct particles particles = particles_of(cloth, part, &slots);
+	kernel_of(cloth->lanes)->bound(&particles, slots.count, cloth->settings.step_max_m);
 }
 
 static long sweep(struct cloth *cloth)
 {
 	long units = cloth->garment->vertex_count;
 	cloth_take(cloth);
-	predict(cloth);
+	for_all_slots(cloth, predict);
 	units += close_seams(cloth);
 	units += cloth_levels(cloth);
 	units += cloth_shape(cloth);
-	pull_held(cloth);
-	put_back(cloth);
+	for_all_slots(cloth, put_back);
 	units += cloth_self(cloth);
-	bound_steps(cloth);
+	for_all_slots(cloth, bound_steps);
 	if (cloth->settings.faces)
 		units += cloth_contact_faces(cloth, cloth->sweep % FACE_SLICES, FACE_SLICES);
 	units += cloth_contact(cloth);

@@ -158,16 +158,35 @@ static void note_stage(struct cloth *cloth)
 		s->quiet[v].way2_m2 = 0.0f;
 }
 
-long cloth_contact(struct cloth *cloth)
+struct contact_pass {
+	struct cloth *cloth;
+	long units[GARMENT_VERTICES_MAX / LOOP_ROUNDS + 1]; /* per part */
+};
+
+static void touch_part(void *context, int part)
 {
+	struct contact_pass *pass = context;
+	struct cloth *cloth = pass->cloth;
 	const struct quiet *quiet = cloth->scratch->quiet;
+	struct loop_part loop = loop_part(cloth->garment->vertex_count, part);
 	long units = 0;
-	note_stage(cloth);
-	for (int v = 0; v < cloth->garment->vertex_count; v++) {
+	for (int v = loop.first; v < loop.first + loop.count; v++) {
 		struct v3 gone = v3_sub(cloth->position_m[v], quiet[v].at_m);
 		if (!(v3_dot(gone, gone) < quiet[v].way2_m2) && is_particle(cloth, v))
 			units += cloth_touch(cloth, v);
 	}
+	pass->units[part] = units;
+}
+
+long cloth_contact(struct cloth *cloth)
+{
+	struct contact_pass pass = {.cloth = cloth};
+	int parts = loop_parts(cloth->garment->vertex_count);
+	long units = 0;
+	note_stage(cloth);
+	crew_run(cloth->crew, touch_part, &pass, parts);
+	for (int part = 0; part < parts; part++)
+		units += pass.units[part];
 	return units;
 }
 

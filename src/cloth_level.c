@@ -294,6 +294,16 @@ static struct place node_start(const struct cloth_scratch *s, int l, int node)
 	return s->place[int_max(slot, 0)];
 }
 
+static void spread_moves(void *context, int part)
+{
+	struct cloth *cloth = context;
+	struct cloth_scratch *s = cloth->scratch;
+	struct loop_part slots = loop_part(s->slot_count - SLOT_FIRST, part);
+	int first = SLOT_FIRST + slots.first;
+	kernel_of(cloth->lanes)
+		->spread(s->place + first, s->slot_spread + first, slots.count, s->level[0].move);
+}
+
 long cloth_levels(struct cloth *cloth)
 {
 	struct cloth_scratch *s = cloth->scratch;
@@ -319,8 +329,6 @@ long cloth_levels(struct cloth *cloth)
 	}
 	if (!moved)
 		return units;
-	kernel_of(cloth->lanes)
-		->spread(s->place + SLOT_FIRST, s->slot_spread + SLOT_FIRST,
-			 s->slot_count - SLOT_FIRST, s->level[0].move);
+	crew_run(cloth->crew, spread_moves, cloth, loop_parts(s->slot_count - SLOT_FIRST));
 	return units + s->slot_count - SLOT_FIRST;
 }

@@ -3,6 +3,8 @@
 #ifndef CREW_H
 #define CREW_H
 
+#include "base.h"
+
 typedef void crew_task(void *context, int part);
 
 struct crew {
@@ -20,6 +22,24 @@ static inline void crew_run(struct crew *crew, crew_task *task, void *context, i
 	}
 	for (int part = 0; part < parts; part++)
 		task(context, part);
+}
+
+/* Loops whose rounds touch nothing of one another's are handed out in parts of so many rounds. */
+enum { LOOP_ROUNDS = 512 };
+
+static inline int loop_parts(int rounds)
+{
+	return (rounds + LOOP_ROUNDS - 1) / LOOP_ROUNDS;
+}
+
+struct loop_part {
+	int first, count;
+};
+
+static inline struct loop_part loop_part(int rounds, int part)
+{
+	int first = part * LOOP_ROUNDS;
+	return (struct loop_part){first, int_min(rounds - first, LOOP_ROUNDS)};
 }
 
 #endif

@@ -1,11 +1,18 @@
 /* Plays tapes through the pure part of the program and prints each one's state hash: what must be
- * the same on every processor, compiler and optimisation level. Needs no package. */
+ * the same on every processor, compiler, optimisation level and number of threads. Needs no
+ * package.
+ *
+ *   replay_hash THREADS TAPE...
+ */
 #include "kiosk.h"
 #include "tape.h"
+#include "threads.h"
 
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
+
+static struct threads threads;
 
 static char *read_file(const char *path, size_t *size)
 {
@@ -30,6 +37,7 @@ static bool play(struct kiosk *kiosk, void *memory, const char *path)
 		return false;
 	}
 	kiosk_init(kiosk, memory, tape.width_px, tape.height_px);
+	kiosk->session.cloth.crew = threads_crew(&threads);
 	const char *wrong = body_build_mannequin(&kiosk->session.body);
 	MUST(!wrong);
 	body_find_parts(&kiosk->session.body);
@@ -55,8 +63,15 @@ int main(int argc, char **argv)
 	struct kiosk *kiosk = malloc(sizeof *kiosk);
 	void *memory = malloc(KIOSK_MEMORY_BYTES);
 	MUST(kiosk && memory);
-	bool fine = argc > 1;
-	for (int i = 1; i < argc; i++)
+	char fault[FAULT_BYTES] = "usage: replay_hash THREADS TAPE...";
+	int count = argc > 2 ? atoi(argv[1]) : 0;
+	if (count < 1 || count > THREADS_MAX || !threads_start(&threads, count, NULL, fault)) {
+		fprintf(stderr, "%s\n", fault);
+		return EXIT_FAILURE;
+	}
+	bool fine = true;
+	for (int i = 2; i < argc; i++)
 		fine &= play(kiosk, memory, argv[i]);
+	threads_stop(&threads);
 	return fine ? EXIT_SUCCESS : EXIT_FAILURE;
 }
