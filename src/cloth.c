@@ -11,6 +11,7 @@ static void init_order(struct cloth_scratch *s, struct arena *arena)
 	s->ranked = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
 	s->rank = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
 	s->triangles.item = ARENA_ARRAY(arena, int, GARMENT_TRIANGLES_MAX);
+	s->face = ARENA_ARRAY(arena, int, GARMENT_TRIANGLES_MAX);
 	s->flats.item = ARENA_ARRAY(arena, int, GARMENT_EDGES_MAX);
 	s->sorted = ARENA_ARRAY(arena, int, GARMENT_EDGES_MAX);
 	s->taken = ARENA_ARRAY(arena, uint64_t, GARMENT_VERTICES_MAX);

@@ -295,29 +295,59 @@ static long leave_bone(struct cloth *cloth, int a, int b)
 	return BONE_UNITS;
 }
 
-/* Slice `slice` of `slices` of all triangles: three points of every edge, and the centre. Edges of
- * two triangles are looked at in the first. */
-long cloth_contact_faces(struct cloth *cloth, int slice, int slices)
+/* Three points of every edge of the triangle, and the centre. Edges of two triangles are looked at
+ * in the first. */
+static long look_at_face(struct cloth *cloth, int t)
 {
 	static const float third[3] = {1.0f / 3.0f, 1.0f / 3.0f, 1.0f / 3.0f};
+	const int *v = cloth->triangle[t].v;
+	uint8_t owner = cloth->scratch->edge_owner[t];
+	if (!triangle_placed(cloth, t) || !near_body(cloth, v))
+		return 0;
+	long units = lift_point(cloth, v, third);
+	for (int k = 0; k < 3; k++)
+		if (owner >> k & 1)
+			units += leave_bone(cloth, v[k], v[(k + 1) % 3]);
+	for (int k = 0; k < 3; k++)
+		for (int i = 1; (owner >> k & 1) && i < 4; i++) {
+			float weight[3] = {0.0f, 0.0f, 0.0f};
+			weight[k] = 1.0f - 0.25f * (float)i;
+			weight[(k + 1) % 3] = 0.25f * (float)i;
+			units += lift_point(cloth, v, weight);
+		}
+	return units;
+}
+
+struct face_pass {
+	struct cloth *cloth;
+	int slice, slices, first_group;
+	long units[STRIPS_MAX]; /* per part */
+};
+
+/* Faces lift their corners: they are shared out as the triangles' shapes are (cloth_order.c). */
+static void face_group(void *context, int part)
+{
+	struct face_pass *pass = context;
+	const struct cloth_scratch *s = pass->cloth->scratch;
+	const int *first = &s->face_first[pass->first_group + part];
+	long units = 0;
+	for (int i = first[0] + pass->slice; i < first[1]; i += pass->slices)
+		units += look_at_face(pass->cloth, s->face[i]);
+	pass->units[part] = units;
+}
+
+long cloth_contact_faces(struct cloth *cloth, int slice, int slices)
+{
+	struct face_pass pass = {.cloth = cloth, .slice = slice, .slices = slices};
+	int strips = cloth->scratch->strip_count;
 	long units = 0;
 	if (slice == 0)
 		lower_lifts(cloth);
-	for (int t = slice; t < cloth->garment->triangle_count; t += slices) {
-		const int *v = cloth->triangle[t].v;
-		if (!triangle_placed(cloth, t) || !near_body(cloth, v))
-			continue;
-		units += lift_point(cloth, v, third);
-		for (int k = 0; k < 3; k++)
-			if (cloth->scratch->edge_owner[t] >> k & 1)
-				units += leave_bone(cloth, v[k], v[(k + 1) % 3]);
-		for (int k = 0; k < 3; k++)
-			for (int i = 1; (cloth->scratch->edge_owner[t] >> k & 1) && i < 4; i++) {
-				float weight[3] = {0.0f, 0.0f, 0.0f};
-				weight[k] = 1.0f - 0.25f * (float)i;
-				weight[(k + 1) % 3] = 0.25f * (float)i;
-				units += lift_point(cloth, v, weight);
-			}
+	for (int cuts = 0; cuts < 2; cuts++) {
+		pass.first_group = cuts * strips;
+		crew_run(cloth->crew, face_group, &pass, strips - cuts);
+		for (int part = 0; part < strips - cuts; part++)
+			units += pass.units[part];
 	}
 	return units;
 }

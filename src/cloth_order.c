@@ -159,6 +159,21 @@ static void put_in_order(struct cloth *cloth, const struct list *list, struct or
 		order->item[place[s->key[i]]++] = s->sorted[i];
 }
 
+/* Triangles by group, for whatever is done to each of them once. */
+static void put_faces(struct cloth_scratch *s, const struct list *triangles)
+{
+	int *first = s->face_first;
+	memset(first, 0, sizeof s->face_first);
+	for (int t = 0; t < triangles->count; t++)
+		first[group_of(s, triangles, t) + 1]++;
+	for (int g = 0; g < GROUPS_MAX; g++)
+		first[g + 1] += first[g];
+	int place[GROUPS_MAX];
+	memcpy(place, first, sizeof place);
+	for (int t = 0; t < triangles->count; t++)
+		s->face[place[group_of(s, triangles, t)]++] = t;
+}
+
 void cloth_order(struct cloth *cloth)
 {
 	struct cloth_scratch *s = cloth->scratch;
@@ -170,6 +185,7 @@ void cloth_order(struct cloth *cloth)
 				    int_max(reach_of(s, &triangles), reach_of(s, &flats)));
 	put_in_order(cloth, &triangles, &s->triangles);
 	put_in_order(cloth, &flats, &s->flats);
+	put_faces(s, &triangles);
 	s->stale = true;
 }
 

@@ -83,6 +83,8 @@ struct cloth_scratch {
 	int *ranked, *rank;
 	int strip_count;
 	struct order triangles, flats;
+	int *face; /* triangles by group, in a group as they come */
+	int face_first[GROUPS_MAX + 1];
 	int *sorted;           /* while constraints are coloured */
 	uint64_t *taken;       /* per particle: its colours */
 	uint16_t *key;         /* per constraint in sorted: COLOURS * group + colour */
