@@ -176,9 +176,10 @@ static long advance_cloth(struct session *session)
 		units += drag_move(&session->drag, session->drag_target_m);
 	memcpy(session->frame_start_m, cloth->position_m,
 	       (size_t)session->garment.vertex_count * sizeof(struct v3));
-	for (int sweep = 0; sweep < SWEEPS_A_FRAME_MAX && units < session->budget_units; sweep++) {
+	int sweeps = 0;
+	do { /* one in any case: contact has the last word on what the hand has moved */
 		units += cloth_sweep(cloth);
-	}
+	} while (++sweeps < SWEEPS_A_FRAME_MAX && units < session->budget_units);
 	session->relax_frames = session->relaxing ? session->relax_frames + 1 : 0;
 	if (session->relaxing)
 		cloth_unfold(cloth, (session->relax_frames - 1) % UNFOLD_SLICES, UNFOLD_SLICES,

@@ -209,25 +209,31 @@ static void check_tracking(struct scene *scene, const struct worn *worn)
 	CHECK(edit(scene, EDIT_RELEASE, 0, 0.0f, 0.0f, 0.0f));
 }
 
-/* The frame after the pen's touch pays for it, so that it stays in its budget but for the last
- * sweep. */
+/* What the frame after the pen's touch costs within a budget, and the one after that. */
+static void touch(struct scene *scene, const struct worn *worn, long budget, long units[2])
+{
+	put_back(scene, worn);
+	frames(scene, 5);
+	scene->session.budget_units = budget;
+	CHECK(edit(scene, EDIT_GRAB, 0, 0.0f, -640.0f, 0.0f));
+	for (int i = 0; i < 2; i++) {
+		frames(scene, 1);
+		units[i] = scene->session.frame_units;
+	}
+	CHECK(edit(scene, EDIT_RELEASE, 0, 0.0f, 0.0f, 0.0f));
+}
+
+/* That frame pays for the graph: it sweeps the less, but never not at all. */
 static void check_units(struct scene *scene, const struct worn *worn)
 {
-	struct session *session = &scene->session;
-	long vertices = session->garment.vertex_count, sweeps;
-	for (int tight = 0; tight < 2; tight++) {
-		put_back(scene, worn);
-		if (tight)
-			session->budget_units = 60 * vertices;
-		CHECK(edit(scene, EDIT_GRAB, 0, 0.0f, -640.0f, 0.0f));
-		frames(scene, 1);
-		long touch = session->frame_units;
-		frames(scene, 1);
-		sweeps = session->frame_units;
-		CHECK(tight ? touch < 76 * vertices : touch > sweeps + 9 * vertices);
-		CHECK(edit(scene, EDIT_RELEASE, 0, 0.0f, 0.0f, 0.0f));
-	}
-	session->budget_units = 600000;
+	long usual = scene->session.budget_units, vertices = scene->session.garment.vertex_count;
+	long once[2], paid[2];
+	touch(scene, worn, 1, once);
+	touch(scene, worn, once[0] - 5 * vertices, paid);
+	printf("touch: %ld units, then %ld in a frame of one sweep\n", once[0], once[1]);
+	CHECK(once[1] > 10 * vertices && once[0] > once[1] + 8 * vertices);
+	CHECK(paid[0] == once[0]);
+	scene->session.budget_units = usual;
 }
 
 /* What the pins leave of the motion at a place; -1: the graph does not reach it. */
