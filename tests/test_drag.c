@@ -209,31 +209,41 @@ static void check_tracking(struct scene *scene, const struct worn *worn)
 	CHECK(edit(scene, EDIT_RELEASE, 0, 0.0f, 0.0f, 0.0f));
 }
 
+struct spent {
+	long units;
+	int sweeps;
+};
+
 /* What the frame after the pen's touch costs within a budget, and the one after that. */
-static void touch(struct scene *scene, const struct worn *worn, long budget, long units[2])
+static void touch(struct scene *scene, const struct worn *worn, long budget, struct spent spent[2])
 {
+	struct session *session = &scene->session;
+	long usual = session->budget_units;
 	put_back(scene, worn);
 	frames(scene, 5);
-	scene->session.budget_units = budget;
+	session->budget_units = budget;
 	CHECK(edit(scene, EDIT_GRAB, 0, 0.0f, -640.0f, 0.0f));
 	for (int i = 0; i < 2; i++) {
+		int before = session->cloth.sweep;
 		frames(scene, 1);
-		units[i] = scene->session.frame_units;
+		spent[i] = (struct spent){session->frame_units, session->cloth.sweep - before};
 	}
 	CHECK(edit(scene, EDIT_RELEASE, 0, 0.0f, 0.0f, 0.0f));
+	session->budget_units = usual;
 }
 
 /* That frame pays for the graph: it sweeps the less, but never not at all. */
 static void check_units(struct scene *scene, const struct worn *worn)
 {
-	long usual = scene->session.budget_units, vertices = scene->session.garment.vertex_count;
-	long once[2], paid[2];
-	touch(scene, worn, 1, once);
-	touch(scene, worn, once[0] - 5 * vertices, paid);
-	printf("touch: %ld units, then %ld in a frame of one sweep\n", once[0], once[1]);
-	CHECK(once[1] > 10 * vertices && once[0] > once[1] + 8 * vertices);
-	CHECK(paid[0] == once[0]);
-	scene->session.budget_units = usual;
+	long vertices = scene->session.garment.vertex_count;
+	struct spent least[2], some[2];
+	touch(scene, worn, 1, least);
+	touch(scene, worn, least[1].units + 5 * vertices, some);
+	printf("touch: %ld units, then %ld in frames of one sweep; %d and %d sweeps\n",
+	       least[0].units, least[1].units, some[0].sweeps, some[1].sweeps);
+	CHECK(least[0].sweeps == 1 && least[1].sweeps == 1);
+	CHECK(least[0].units > least[1].units + 8 * vertices);
+	CHECK(some[0].sweeps < some[1].sweeps);
 }
 
 /* What the pins leave of the motion at a place; -1: the graph does not reach it. */
