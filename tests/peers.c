@@ -124,6 +124,7 @@ int main(int argc, char **argv)
 	peers_drapes(&body, with_peers);
 	peers_tracks(&body, with_peers);
 	peers_dressing();
+	peers_drag();
 	peers_meshing(with_peers);
 	printf("body of %d triangles; a drape of %d frames; thread CPU time\n", body.triangle_count,
 	       DRAPE_FRAMES);

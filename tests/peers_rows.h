@@ -26,6 +26,7 @@ void peers_add(const struct peers_row *row);
 void peers_drapes(const struct peers_body *body, bool with_peers);
 void peers_tracks(const struct peers_body *body, bool with_peers);
 void peers_dressing(void);
+void peers_drag(void);
 void peers_meshing(bool with_peers);
 
 #endif

@@ -5,6 +5,7 @@
 #include "scene.h"
 #include "shapes.h"
 #include "test.h"
+#include "tube.h"
 
 enum {
 	GRABS = 8,
@@ -15,7 +16,7 @@ enum {
 };
 
 static const float offset_m = 0.004f;
-static const float sphere_m = 0.2f, cylinder_m = 0.15f;
+static const float sphere_m = 0.2f;
 static struct shape shape;
 static struct v3 worn_m[GARMENT_VERTICES_MAX];
 
@@ -89,30 +90,6 @@ static float sphere_radius(int ring, int column)
 	return sphere_m;
 }
 
-/* About the Y axis, from -1 to 1, with a point for each lid. */
-static void make_cylinder(int columns, int rings)
-{
-	shape.vertex_count = shape.triangle_count = 0;
-	for (int r = 0; r < rings; r++)
-		for (int c = 0; c < columns; c++) {
-			float angle = 2.0f * PI_F * (float)c / (float)columns;
-			shape_vertex(&shape, cylinder_m * angle_sin(angle),
-				     2.0f * (float)r / (float)(rings - 1) - 1.0f,
-				     cylinder_m * angle_cos(angle));
-		}
-	int south = shape_vertex(&shape, 0.0f, -1.0f, 0.0f);
-	int north = shape_vertex(&shape, 0.0f, 1.0f, 0.0f), top = (rings - 1) * columns;
-	for (int c = 0; c < columns; c++) {
-		int d = (c + 1) % columns;
-		shape_triangle(&shape, south, d, c);
-		shape_triangle(&shape, north, top + c, top + d);
-		for (int low = 0; low < top; low += columns) {
-			shape_triangle(&shape, low + c, low + d, low + columns + d);
-			shape_triangle(&shape, low + c, low + columns + d, low + columns + c);
-		}
-	}
-}
-
 static void take_body(struct scene *scene)
 {
 	MUST(!body_build(&scene->session.body, shape.position_m, shape.vertex_count, shape.triangle,
@@ -120,15 +97,6 @@ static void take_body(struct scene *scene)
 }
 
 /* ---- cloth ---- */
-
-static void lay(struct scene *scene, bool welded)
-{
-	static uint8_t placed[GARMENT_VERTICES_MAX];
-	struct session *session = &scene->session;
-	memset(placed, 1, sizeof placed);
-	cloth_restore(&session->cloth, &session->garment, &session->body, worn_m, placed, welded,
-		      true);
-}
 
 /* The shape's own triangles as a garment of one piece at worn_m. */
 static void lay_shape(struct scene *scene)
@@ -146,31 +114,7 @@ static void lay_shape(struct scene *scene)
 	}
 	memcpy(garment->triangle, shape.triangle,
 	       (size_t)shape.triangle_count * sizeof *shape.triangle);
-	lay(scene, false);
-}
-
-/* A rectangle of the mesher's triangles, sewn to itself round the cylinder. */
-static void lay_tube(struct scene *scene)
-{
-	static const char *line[2] = {"piece tube 0 0 0 0 0 -480 0 1 -480 -400 1 480 -400 1 480 0 "
-				      "1",
-				      "sew 0 0 0 2 0"};
-	struct session *session = &scene->session;
-	char fault[160];
-	bool done = false;
-	for (int i = 0; i < 2; i++)
-		MUST(journal_read(line[i], (int)strlen(line[i]), &scene->edit, fault) ==
-			     JOURNAL_EDIT &&
-		     session_apply(session, &scene->edit));
-	MUST(!garment_start(session->mesher, &session->garment, &session->document.pattern, 2400));
-	while (!done)
-		garment_advance(session->mesher, 100000, &done);
-	for (int v = 0; v < session->garment.vertex_count; v++) {
-		struct v2 rest = session->garment.rest_m[v];
-		float turn = rest.x / 0.960f * 2.0f * PI_F, out_m = cylinder_m + offset_m;
-		worn_m[v] = (struct v3){out_m * angle_sin(turn), rest.y, out_m * angle_cos(turn)};
-	}
-	lay(scene, true);
+	tube_wear(&scene->session, worn_m, false);
 }
 
 /* ---- figures ---- */
@@ -212,14 +156,6 @@ static float on_sphere(struct v3 a, struct v3 b)
 	return sphere_m * angle_acos(v3_dot(v3_normalize(a), v3_normalize(b)));
 }
 
-static float on_cylinder(struct v3 a, struct v3 b)
-{
-	struct v3 flat_a = v3_normalize((struct v3){a.x, 0.0f, a.z});
-	struct v3 flat_b = v3_normalize((struct v3){b.x, 0.0f, b.z});
-	float round = cylinder_m * angle_acos(v3_dot(flat_a, flat_b)), up = b.y - a.y;
-	return sqrtf(round * round + up * up);
-}
-
 static struct error errors_of(struct scene *scene, formula exact)
 {
 	const struct session *session = &scene->session;
@@ -259,10 +195,8 @@ static void check_sphere(struct scene *scene)
 
 static void check_cylinder(struct scene *scene)
 {
-	make_cylinder(240, 60);
-	take_body(scene);
-	lay_tube(scene);
-	say("cylinder", errors_of(scene, on_cylinder));
+	tube_lay(scene, 2400);
+	say("cylinder", errors_of(scene, tube_distance));
 }
 
 /* ---- the net: shortest ways over points on the edges of the shape ---- */
