@@ -325,6 +325,7 @@ static long sweep(struct cloth *cloth)
 	if (cloth->settings.faces)
 		units += cloth_contact_faces(cloth, cloth->sweep % FACE_SLICES, FACE_SLICES);
 	units += cloth_contact(cloth);
+	units += cloth_self_order(cloth);
 	cloth->sweep++;
 	return units;
 }

@@ -114,8 +114,7 @@ static void push(struct cloth *cloth, int v)
 	*p = v3_mad(*p, step, -lost);
 }
 
-/* How far the particle may move before push() has something to do. */
-static float spare(const struct cloth *cloth, int v)
+float cloth_spare(const struct cloth *cloth, int v)
 {
 	const struct cloth_scratch *s = cloth->scratch;
 	const struct contact *contact = &cloth->contact[v];
@@ -132,7 +131,7 @@ static void find_quiet(struct cloth *cloth, int v)
 	struct v3 p = cloth->position_m[v];
 	float gone = v3_distance(p, track->at_m);
 	float looked = float_max(look_again_m, body_track_idle_m(track));
-	float way = float_min(spare(cloth, v), float_min(looked, track->least_m) - gone);
+	float way = float_min(cloth_spare(cloth, v), float_min(looked, track->least_m) - gone);
 	cloth->scratch->quiet[v] = (struct quiet){p, way > 0.0f ? way * way : 0.0f};
 }
 

@@ -167,6 +167,9 @@ long cloth_contact_faces(struct cloth *cloth, int slice, int slices); /* midpoin
  * has come through the cloth, and no way along their own normals leads out. */
 bool cloth_pierced(const struct cloth *cloth, const int *v, int corners);
 
+/* How far a particle whose contact is known may move before contact pushes it out. */
+float cloth_spare(const struct cloth *cloth, int v);
+
 /* Contact of one particle that was moved. */
 long cloth_touch(struct cloth *cloth, int v);
 

@@ -5,9 +5,9 @@ static const float touching = -0.05f; /* ... and to be kept off */
 static const float margin_m = 0.005f; /* what a vertex may move beside a sheet within a round */
 static const float layered_margin_m = 0.014f; /* and how deep an outer garment is found */
 static const float lost_m = 0.016f;           /* deeper, a remembered side means nothing any more */
-static const float along_body_m = 0.15f;      /* cloth so near lies along the body */
-static const float along_body = 0.5f;         /* if its normal is within 60 degrees of the body's */
-static const float rub = 0.2f; /* share of the sliding of sheets on one another lost */
+static const float alike = 0.3f;              /* cosine between sheets that lie on one another */
+static const float resting_m = 0.0005f; /* so near to where contact pushes, cloth can't give way */
+static const float rub = 0.2f;          /* share of the sliding of sheets on one another lost */
 
 struct cloth_self *cloth_self_init(struct arena *arena)
 {
@@ -37,11 +37,12 @@ void cloth_self_build(struct cloth *cloth)
 	struct cloth_self *self = cloth->self;
 	size_t vertices = (size_t)cloth->garment->vertex_count;
 	self->looked = false;
-	self->margin_m = margin_m;
+	self->layered = false;
 	for (int p = 0; p < PIECES_MAX; p++)
-		if (cloth->garment->layer[p] > 0 &&
-		    cloth->garment->piece_first[p] < cloth->garment->piece_first[p + 1])
-			self->margin_m = layered_margin_m;
+		self->layered |= cloth->garment->layer[p] > 0 &&
+				 cloth->garment->piece_first[p] <
+					 cloth->garment->piece_first[p + 1];
+	self->margin_m = self->layered ? layered_margin_m : margin_m;
 	self->crossing_count = 0;
 	if (!cloth->welded)
 		return;
@@ -118,19 +119,20 @@ static int remembered(const struct cloth *cloth, int t, const int *pair, int cou
 	return side;
 }
 
-/* The outer of two garments belongs in front of the inner one, wherever it lies now; 0: one
- * garment, or a triangle that does not lie along the body (a fold, a part turned over, a hem that
- * hangs). */
-int self_layer_side(const struct cloth *cloth, int v, int t, struct v3 normal)
+/* The outer of two garments belongs in front of the inner one, wherever it lies now. Sheets that do
+ * not face alike (a fold, a part turned over, a sleeve beside a trunk) may lie otherwise. */
+int self_layer_side(const struct cloth *cloth, int s, int t)
 {
 	const struct garment *garment = cloth->garment;
-	const struct contact *contact = &cloth->contact[cloth->triangle[t].v[0]];
-	int own = garment->layer[garment->piece[v]];
+	int own = garment->layer[garment->triangle_piece[s]];
 	int other = garment->layer[garment->triangle_piece[t]];
-	if (own == other || contact->distance_m > along_body_m ||
-	    v3_dot(contact->normal, normal) < along_body)
+	if (own == other)
 		return 0;
-	return SELF_DECIDED | (own > other ? SELF_FRONT : 0);
+	struct v3 a = cloth->self->triangle[s].normal, b = cloth->self->triangle[t].normal;
+	float facing = v3_dot(a, b);
+	if (facing <= 0.0f || facing * facing < alike * alike * v3_dot(a, a) * v3_dot(b, b))
+		return 0;
+	return own > other ? 1 : -1;
 }
 
 /* On which side of a triangle a vertex belongs: where nothing is known it is the side on which it
@@ -138,10 +140,10 @@ int self_layer_side(const struct cloth *cloth, int v, int t, struct v3 normal)
 static int side_of(const struct cloth *cloth, int v, int t, const struct over *over,
 		   const int *before, int before_count)
 {
-	int side = self_layer_side(cloth, v, t, over->normal);
-	if (side)
-		return side;
-	side = remembered(cloth, t, before, before_count);
+	int order = self_layer_side(cloth, cloth->self->owner[v], t);
+	if (order)
+		return SELF_DECIDED | (order > 0 ? SELF_FRONT : 0);
+	int side = remembered(cloth, t, before, before_count);
 	if (side)
 		return side;
 	return (over->height > 0.0f ? SELF_FRONT : 0) |
@@ -210,32 +212,86 @@ static void renew_pairs(struct cloth *cloth, int v, const int *near, int near_co
 
 /* ---- keeping apart ---- */
 
-/* Puts v a thickness away from a triangle on its side; both give way. Sheets that rub lose some of
- * their sliding. */
-static void keep_apart(struct cloth *cloth, int v, int pair)
+static int layer_of(const struct cloth *cloth, int v)
 {
-	const int *w = cloth->triangle[pair / 4].v;
+	return cloth->garment->layer[cloth->garment->piece[v]];
+}
+
+/* 0 or 1: does the particle give way in a direction? Pins do not, nor what lies on the body. */
+static float gives_way(const struct cloth *cloth, int v, struct v3 way)
+{
+	const struct contact *contact = &cloth->contact[v];
+	if (cloth->held[v] > 1)
+		return 0.0f;
+	return contact->triangle >= 0 && v3_dot(way, contact->normal) < 0.0f &&
+			       cloth_spare(cloth, v) < resting_m
+		       ? 0.0f
+		       : 1.0f;
+}
+
+void self_part(struct cloth *cloth, const struct sheet_point *a, const struct sheet_point *b,
+	       struct v3 away, bool outer_only)
+{
+	const struct sheet_point *points[2] = {a, b};
+	int outer = int_max(layer_of(cloth, a->v[0]), layer_of(cloth, b->v[0]));
+	float share[2][3], sum = 0.0f;
+	for (int pass = 0; sum == 0.0f && pass < 2; pass++) /* if none gives way, all do */
+		for (int i = 0; i < 2; i++)
+			for (int k = 0; k < points[i]->count; k++) {
+				int v = points[i]->v[k];
+				float w = points[i]->weight[k], give = 1.0f;
+				struct v3 way = v3_scale(away, i == 0 ? w : -w);
+				if (outer_only)
+					give = layer_of(cloth, v) == outer ? 1.0f : 0.0f;
+				else if (pass == 0)
+					give = gives_way(cloth, v, way);
+				share[i][k] = give * w;
+				sum += share[i][k] * w;
+			}
+	for (int i = 0; sum > 0.0f && i < 2; i++)
+		for (int k = 0; k < points[i]->count; k++) {
+			struct v3 *x = &cloth->position_m[points[i]->v[k]];
+			float by = (i == 0 ? share[i][k] : -share[i][k]) / sum;
+			*x = v3_mad(*x, away, by);
+		}
+}
+
+/* Sheets that rub lose some of their sliding. */
+static void rub_sheets(struct cloth *cloth, int v, const int *w, const struct over *over)
+{
 	struct v3 *x = cloth->position_m;
 	const struct v3 *start = cloth->previous_m;
+	struct v3 slide = v3_sub(x[v], start[v]);
+	float sum = 1.0f;
+	for (int k = 0; k < 3; k++) {
+		slide = v3_mad(slide, v3_sub(x[w[k]], start[w[k]]), -over->weight[k]);
+		sum += over->weight[k] * over->weight[k];
+	}
+	slide = v3_mad(slide, over->normal, -v3_dot(slide, over->normal));
+	x[v] = v3_mad(x[v], slide, -rub / sum);
+	for (int k = 0; k < 3; k++)
+		x[w[k]] = v3_mad(x[w[k]], slide, over->weight[k] * rub / sum);
+}
+
+/* Puts v a thickness away from a triangle on its side. */
+static void keep_apart(struct cloth *cloth, int v, int pair, bool outer_only)
+{
+	const int *w = cloth->triangle[pair / 4].v;
 	struct over over;
-	if (!(pair & SELF_DECIDED) || !self_look_over(cloth, x[v], pair / 4, &over))
+	if (!(pair & SELF_DECIDED) || !self_look_over(cloth, cloth->position_m[v], pair / 4, &over))
 		return;
-	float sign = pair & SELF_FRONT ? 1.0f : -1.0f, height = sign * over.height, sum = 1.0f;
+	float sign = pair & SELF_FRONT ? 1.0f : -1.0f, height = sign * over.height;
 	float lack = cloth->settings.thickness_m - height;
 	if (lack <= 0.0f || height < -lost_m || over.weight[0] < touching ||
 	    over.weight[1] < touching || over.weight[2] < touching)
 		return;
-	struct v3 slide = v3_sub(x[v], start[v]);
-	for (int k = 0; k < 3; k++) {
-		slide = v3_mad(slide, v3_sub(x[w[k]], start[w[k]]), -over.weight[k]);
-		sum += over.weight[k] * over.weight[k];
-	}
-	slide = v3_mad(slide, over.normal, -v3_dot(slide, over.normal));
-	struct v3 step = v3_scale(over.normal, sign * lack / sum);
-	step = v3_mad(step, slide, -rub / sum);
-	x[v] = v3_add(x[v], step);
-	for (int k = 0; k < 3; k++)
-		x[w[k]] = v3_mad(x[w[k]], step, -over.weight[k]);
+	struct sheet_point a = {1, {v}, {1.0f}},
+			   b = {3,
+				{w[0], w[1], w[2]},
+				{over.weight[0], over.weight[1], over.weight[2]}};
+	if (!outer_only)
+		rub_sheets(cloth, v, w, &over);
+	self_part(cloth, &a, &b, v3_scale(over.normal, sign * lack), outer_only);
 }
 
 static long keep_all_apart(struct cloth *cloth)
@@ -244,7 +300,7 @@ static long keep_all_apart(struct cloth *cloth)
 	long pairs = 0;
 	for (int v = 0; v < cloth->garment->vertex_count; v++) {
 		for (int i = 0; i < self->pair_count[v]; i++)
-			keep_apart(cloth, v, self->pair[SELF_PAIRS_A_VERTEX * v + i]);
+			keep_apart(cloth, v, self->pair[SELF_PAIRS_A_VERTEX * v + i], false);
 		pairs += self->pair_count[v];
 	}
 	return pairs;
@@ -256,7 +312,7 @@ static long keep_all_apart(struct cloth *cloth)
 static void judge(struct cloth *cloth)
 {
 	self_find_patches(cloth);
-	if (cloth->self->crossing_count > 0)
+	if (cloth_crossings(cloth) > 0)
 		self_judge_zones(cloth);
 	else
 		memset(cloth->self->crossed, 0, GARMENT_VERTICES_MAX);
@@ -306,4 +362,23 @@ long cloth_self(struct cloth *cloth)
 		units += self_grid(cloth) +
 			 look(cloth, cloth->sweep / SELF_EVERY % SELF_SLICES, SELF_SLICES);
 	return units;
+}
+
+long cloth_self_order(struct cloth *cloth)
+{
+	const struct cloth_self *self = cloth->self;
+	if (!cloth->welded || cloth->settings.thickness_m <= 0.0f || !self->layered)
+		return 0;
+	long units = 0;
+	for (int v = 0; v < cloth->garment->vertex_count; v++)
+		for (int i = 0; i < self->pair_count[v]; i++) {
+			int pair = self_pair(self, v, i);
+			if (layer_of(cloth, v) ==
+			    cloth->garment->layer[cloth->garment->triangle_piece[pair / 4]])
+				continue;
+			keep_apart(cloth, v, pair, true);
+			units++;
+		}
+	units += self_hold_order(cloth);
+	return units + cloth_contact(cloth);
 }

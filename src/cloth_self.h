@@ -21,6 +21,10 @@ void cloth_self_build(struct cloth *cloth);
  * where settings.thickness_m is 0. */
 long cloth_self(struct cloth *cloth);
 
+/* After contact: outer garments go where inner ones have left them to be; nothing inner moves.
+ * Units spent. */
+long cloth_self_order(struct cloth *cloth);
+
 /* Forgets the sides of flagged particles: they were put elsewhere. */
 void cloth_self_forget(struct cloth *cloth, const uint8_t *flagged);
 

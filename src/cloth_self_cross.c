@@ -4,7 +4,10 @@
  * from. */
 #include "cloth_self_private.h"
 
-static const float pull_m = 0.0006f; /* of an edge and a triangle apart in one sweep, at most */
+static const float watched_m = 0.0012f; /* edges of garments so near to one another are held */
+static const float held_m = 0.001f;     /* ... so far apart */
+static const float lost_m = 0.016f;     /* deeper, the order of garments means nothing here */
+static const float pull_m = 0.0006f;    /* of an edge and a triangle apart in one sweep, at most */
 
 /* Where a segment p q passes through a triangle: the share of the way from p, and weights of the
  * corners. */
@@ -51,6 +54,44 @@ static bool has_corner(const struct triangle *triangle, int v)
 	return triangle->v[0] == v || triangle->v[1] == v || triangle->v[2] == v;
 }
 
+/* Where an edge comes lowest over the side of a triangle on which it belongs: the share of the way
+ * from its first end, weights of the corners, height. False: it does not pass over it. */
+struct lowest {
+	float at, height;
+	struct over over;
+};
+
+static bool look_lowest(const struct cloth *cloth, int e, int t, int side, struct lowest *lowest)
+{
+	int a, b;
+	struct over from, to;
+	float begin = 0.0f, end = 1.0f;
+	edge_ends(cloth, e, &a, &b);
+	if (!self_look_over(cloth, cloth->position_m[a], t, &from) ||
+	    !self_look_over(cloth, cloth->position_m[b], t, &to))
+		return false;
+	for (int k = 0; k < 3; k++) {
+		float slope = to.weight[k] - from.weight[k];
+		if (float_abs(slope) < 1e-6f && from.weight[k] < 0.0f)
+			return false;
+		if (slope > 1e-6f)
+			begin = float_max(begin, -from.weight[k] / slope);
+		if (slope < -1e-6f)
+			end = float_min(end, -from.weight[k] / slope);
+	}
+	if (begin > end)
+		return false;
+	float sign = (float)side;
+	bool falls = sign * (to.height - from.height) < 0.0f;
+	float at = falls ? end : begin;
+	lowest->at = at;
+	lowest->height = sign * (from.height + at * (to.height - from.height));
+	lowest->over = from;
+	for (int k = 0; k < 3; k++)
+		lowest->over.weight[k] += at * (to.weight[k] - from.weight[k]);
+	return true;
+}
+
 /* An edge belongs to the lower of its triangles. */
 void self_find_crossings(struct cloth *cloth, int t, const int *near, int near_count)
 {
@@ -60,15 +101,23 @@ void self_find_crossings(struct cloth *cloth, int t, const int *near, int near_c
 	for (int i = 0; i < near_count; i++) {
 		self_corners(cloth, near[i], corner);
 		for (int k = 0; k < 3; k++) {
-			int e = 3 * t + k, a, b;
+			int e = 3 * t + k, a, b, side;
+			struct lowest lowest;
 			edge_ends(cloth, e, &a, &b);
 			if ((self->across[e] >= 0 && self->across[e] < e) ||
-			    has_corner(&cloth->triangle[near[i]], a) ||
-			    !pierces(cloth->position_m[a], cloth->position_m[b], corner, &piercing))
+			    has_corner(&cloth->triangle[near[i]], a))
+				continue;
+			bool through = pierces(cloth->position_m[a], cloth->position_m[b], corner,
+					       &piercing);
+			side = self->layered ? self_layer_side(cloth, t, near[i]) : 0;
+			if (side && (!look_lowest(cloth, e, near[i], side, &lowest) ||
+				     lowest.height < -lost_m))
+				side = 0;
+			if (!through && !(side && lowest.height < watched_m))
 				continue;
 			if (self->crossing_count < SELF_CROSSINGS_MAX)
-				self->crossing[self->crossing_count++] = (struct crossing){e,
-											   near[i]};
+				self->crossing[self->crossing_count++] = (struct crossing){
+					e, near[i], (int8_t)side, through};
 		}
 	}
 }
@@ -114,6 +163,33 @@ static struct v3 gradient(const struct cloth *cloth, int e, struct v3 normal)
 	return v3_mad(curve, normal, -2.0f * v3_dot(along, curve) / slope);
 }
 
+static void hold(struct cloth *cloth, const struct crossing *crossing, bool outer_only)
+{
+	int a, b;
+	const int *v = cloth->triangle[crossing->triangle].v;
+	struct lowest lowest;
+	if (!look_lowest(cloth, crossing->edge, crossing->triangle, crossing->side, &lowest))
+		return;
+	float lack = held_m - lowest.height;
+	if (lack <= 0.0f || lowest.height < -lost_m)
+		return;
+	edge_ends(cloth, crossing->edge, &a, &b);
+	const float *w = lowest.over.weight;
+	struct sheet_point on_edge = {2, {a, b}, {1.0f - lowest.at, lowest.at}};
+	struct sheet_point on_face = {3, {v[0], v[1], v[2]}, {w[0], w[1], w[2]}};
+	self_part(cloth, &on_edge, &on_face,
+		  v3_scale(lowest.over.normal, (float)crossing->side * lack), outer_only);
+}
+
+long self_hold_order(struct cloth *cloth)
+{
+	const struct cloth_self *self = cloth->self;
+	for (int i = 0; i < self->crossing_count; i++)
+		if (self->crossing[i].side)
+			hold(cloth, &self->crossing[i], true);
+	return 2L * self->crossing_count;
+}
+
 static bool pull(struct cloth *cloth, const struct crossing *crossing)
 {
 	int a, b;
@@ -140,11 +216,17 @@ long self_pull_crossings(struct cloth *cloth)
 {
 	const struct cloth_self *self = cloth->self;
 	for (int i = 0; i < self->crossing_count; i++)
-		pull(cloth, &self->crossing[i]);
+		if (self->crossing[i].side)
+			hold(cloth, &self->crossing[i], false);
+		else
+			pull(cloth, &self->crossing[i]);
 	return 4L * self->crossing_count;
 }
 
 int cloth_crossings(const struct cloth *cloth)
 {
-	return cloth->self->crossing_count;
+	int count = 0;
+	for (int i = 0; i < cloth->self->crossing_count; i++)
+		count += cloth->self->crossing[i].through;
+	return count;
 }

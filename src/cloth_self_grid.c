@@ -100,12 +100,14 @@ void self_find_patches(struct cloth *cloth)
 	struct cloth_self *self = cloth->self;
 	int vertices = cloth->garment->vertex_count;
 	memset(self->trapped, 0, (size_t)vertices);
-	if (self->crossing_count == 0)
+	if (cloth_crossings(cloth) == 0)
 		return;
 	memset(self->cut, 0, (size_t)cloth->garment->triangle_count);
 	for (int i = 0; i < self->crossing_count; i++) {
 		const struct crossing *crossing = &self->crossing[i];
 		int e = crossing->edge, f = self->across[e];
+		if (!crossing->through)
+			continue;
 		self->cut[e / 3] |= (uint8_t)(1 << e % 3);
 		if (f >= 0)
 			self->cut[f / 3] |= (uint8_t)(1 << f % 3);

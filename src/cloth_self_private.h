@@ -18,9 +18,12 @@ enum {
 				them next time */
 };
 
-/* Edge k of a triangle (3 * triangle + k) and the triangle through which it passes. */
+/* Edge k of a triangle (3 * triangle + k) and the triangle through which it passes; or, of two
+ * garments, is about to. */
 struct crossing {
 	int edge, triangle;
+	int8_t side;  /* of the triangle, where the order of garments says so: 1 in front, -1; 0 */
+	bool through; /* it did when last looked at */
 };
 
 /* A triangle in the grid; copied, so that a search reads memory in order. */
@@ -61,6 +64,7 @@ struct cloth_self {
 	int *vote,
 		*voters; /* 2 per particle: of zones, on sheets that face each other, and alike */
 	float margin_m;  /* a vertex is watched so far beyond the thickness */
+	bool layered;    /* there are garments over garments */
 	bool looked;     /* at the whole cloth, once since the build */
 };
 
@@ -90,8 +94,19 @@ static inline int self_pair(const struct cloth_self *self, int v, int i)
 /* False: the triangle has no area. */
 bool self_look_over(const struct cloth *cloth, struct v3 p, int t, struct over *over);
 
-/* The side that the order of garments gives, as bits of a pair; 0: none. */
-int self_layer_side(const struct cloth *cloth, int v, int t, struct v3 normal);
+/* On which side of triangle t the order of garments wants a part of triangle s: 1 in front, -1
+ * behind; 0: it says nothing. */
+int self_layer_side(const struct cloth *cloth, int s, int t);
+
+/* Moves points of two sheets, as weights of up to three particles each, apart along a unit vector:
+ * the first by its share along `away`, the other against it. A particle that would go into the body
+ * on which it lies does not give way; with `outer_only` only those of the outer garment do. */
+struct sheet_point {
+	int count, v[3];
+	float weight[3];
+};
+void self_part(struct cloth *cloth, const struct sheet_point *a, const struct sheet_point *b,
+	       struct v3 away, bool outer_only);
 
 /* Sorts all placed triangles into the grid by their centres. */
 long self_grid(struct cloth *cloth);
@@ -113,7 +128,10 @@ void self_find_patches(struct cloth *cloth);
 /* Decides the sides in zones where sheets cross. */
 void self_judge_zones(struct cloth *cloth);
 
-/* Pulls every crossing out by a step. */
+/* Pulls every crossing out by a step; edges whose side is known go there. */
 long self_pull_crossings(struct cloth *cloth);
+
+/* The latter alone, by moving outer garments only. */
+long self_hold_order(struct cloth *cloth);
 
 #endif

@@ -46,6 +46,8 @@ static void find_zones(struct cloth *cloth)
 		for (int i = 0; i < self->pair_count[v]; i++)
 			join_triangle(self, v, cloth->triangle[self_pair(self, v, i) / 4].v);
 	for (int i = 0; i < self->crossing_count; i++) {
+		if (!self->crossing[i].through)
+			continue;
 		const int *v = cloth->triangle[self->crossing[i].edge / 3].v;
 		const int *w = cloth->triangle[self->crossing[i].triangle].v;
 		join_triangle(self, v[self->crossing[i].edge % 3], w);
@@ -64,6 +66,8 @@ static void keep_crossed_zones(struct cloth *cloth)
 	struct cloth_self *self = cloth->self;
 	int vertices = cloth->garment->vertex_count;
 	for (int i = 0; i < self->crossing_count; i++) {
+		if (!self->crossing[i].through)
+			continue;
 		const int *v = cloth->triangle[self->crossing[i].edge / 3].v;
 		self->crossed[root_of(self->root, v[self->crossing[i].edge % 3])] = 2;
 	}
@@ -112,7 +116,7 @@ static int decide(struct cloth *cloth, int v, int pair)
 	bool alike;
 	if (!self_look_over(cloth, cloth->position_m[v], t, &over))
 		return 4 * t;
-	if (self_layer_side(cloth, v, t, over.normal))
+	if (self_layer_side(cloth, self->owner[v], t))
 		return pair;
 	int front = ballot(cloth, v, t, over.normal, &alike) * self->vote[2 * root + alike];
 	if (CLEAR_MAJORITY * int_max(front, -front) < self->voters[2 * root + alike])
