@@ -44,7 +44,8 @@ static void init_levels(struct cloth_scratch *s, struct arena *arena)
 	s->covered = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
 	s->way_m = ARENA_ARRAY(arena, float, GARMENT_VERTICES_MAX);
 	s->way_of = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
-	s->heap = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
+	s->heap = ARENA_ARRAY(arena, uint64_t, GARMENT_VERTICES_MAX);
+	s->aside = ARENA_ARRAY(arena, struct aside, 6 * GARMENT_TRIANGLES_MAX);
 	s->heap_at = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
 }
 

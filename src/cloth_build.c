@@ -143,6 +143,7 @@ void cloth_build(struct cloth *cloth)
 	list_edges(cloth);
 	pair_edges(cloth);
 	build_stars(cloth);
+	march_build(cloth);
 	cloth_order(cloth);
 	cloth_build_levels(cloth);
 	cloth_self_build(cloth);

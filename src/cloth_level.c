@@ -10,117 +10,6 @@ static const float spacing_edges[LEVELS] = {3.0f, 9.0f};
 static const float spread_share = 1.6f; /* a node moves cloth within so many spacings */
 static const float link_share = 1.8f;   /* and is linked with nodes within so many */
 
-/* ---- ways through the cloth ----
- *
- * Fast marching with unfolding: the distance of a corner beyond an edge whose ends are known is
- * that of the edge's unfolded source, which is exact on flat cloth and over seams (Reimers 2004).
- */
-
-struct march {
-	struct cloth *cloth;
-	struct cloth_scratch *s;
-	int heap_count;
-	float limit_m;
-};
-
-static bool before(const struct cloth_scratch *s, int a, int b)
-{
-	return s->way_m[a] < s->way_m[b] || (s->way_m[a] == s->way_m[b] && a < b);
-}
-
-static void heap_put(struct cloth_scratch *s, int at, int v)
-{
-	s->heap[at] = v;
-	s->heap_at[v] = at;
-}
-
-static void heap_up(struct cloth_scratch *s, int at)
-{
-	int v = s->heap[at];
-	while (at > 0 && before(s, v, s->heap[(at - 1) / 2])) {
-		heap_put(s, at, s->heap[(at - 1) / 2]);
-		at = (at - 1) / 2;
-	}
-	heap_put(s, at, v);
-}
-
-static int heap_pop(struct march *march)
-{
-	struct cloth_scratch *s = march->s;
-	int top = s->heap[0], v = s->heap[--march->heap_count], at = 0;
-	for (;;) {
-		int child = 2 * at + 1;
-		if (child >= march->heap_count)
-			break;
-		if (child + 1 < march->heap_count && before(s, s->heap[child + 1], s->heap[child]))
-			child++;
-		if (!before(s, s->heap[child], v))
-			break;
-		heap_put(s, at, s->heap[child]);
-		at = child;
-	}
-	if (march->heap_count > 0)
-		heap_put(s, at, v);
-	s->heap_at[top] = HEAP_DONE;
-	return top;
-}
-
-static void offer(struct march *march, int v, float way_m)
-{
-	struct cloth_scratch *s = march->s;
-	if (s->way_of[v] != s->way_now) {
-		s->way_of[v] = s->way_now;
-		s->heap_at[v] = HEAP_NEW;
-		s->way_m[v] = march->limit_m;
-	}
-	if (s->heap_at[v] == HEAP_DONE || way_m >= s->way_m[v])
-		return;
-	s->way_m[v] = way_m;
-	if (s->heap_at[v] == HEAP_NEW)
-		heap_put(s, march->heap_count++, v);
-	heap_up(s, s->heap_at[v]);
-}
-
-/* The way to q past the edge p-r of a flat triangle, from a source that is `at_p` from p and `at_r`
- * from r; beyond the limit where the straight line does not cross the edge. */
-static float unfolded_way(struct v2 p, struct v2 r, struct v2 q, float at_p, float at_r)
-{
-	struct v2 along = v2_sub(r, p), to = v2_sub(q, p);
-	float length = v2_length(along), none = 1e9f;
-	if (length < 1e-7f)
-		return none;
-	along = v2_scale(along, 1.0f / length);
-	float x = v2_dot(to, along), y = float_abs(v2_cross(along, to));
-	float sx = (at_p * at_p - at_r * at_r + length * length) / (2.0f * length);
-	float sy = sqrtf(float_max(at_p * at_p - sx * sx, 0.0f));
-	float crossing = sx + (x - sx) * sy / float_max(sy + y, 1e-9f);
-	if (crossing < 0.0f || crossing > length)
-		return none;
-	return sqrtf((x - sx) * (x - sx) + (y + sy) * (y + sy));
-}
-
-/* Particle p's way is known: its neighbours are offered theirs. */
-static void pass_on(struct march *march, int p)
-{
-	struct cloth_scratch *s = march->s;
-	const struct cloth *cloth = march->cloth;
-	const struct garment *garment = cloth->garment;
-	for (int i = cloth->star_first[p]; i < cloth->star_first[p + 1]; i++) {
-		int t = cloth->star[i] >> 2, k = cloth->star[i] & 3;
-		const int *corner = garment->triangle[t].v, *v = cloth->triangle[t].v;
-		for (int side = 1; side < 3; side++) {
-			int a = (k + side) % 3, b = (k + 3 - side) % 3;
-			struct v2 at = garment->rest_m[corner[k]], to = garment->rest_m[corner[a]];
-			offer(march, v[a], s->way_m[p] + v2_distance(at, to));
-			if (s->way_of[v[b]] != s->way_now || s->heap_at[v[b]] != HEAP_DONE)
-				continue;
-			offer(march, v[a],
-			      unfolded_way(at, garment->rest_m[corner[b]], to, s->way_m[p],
-					   s->way_m[v[b]]));
-		}
-	}
-}
-
 /* ---- building ---- */
 
 /* The nearest nodes of a member, nearest first. */
@@ -151,15 +40,12 @@ static void note_link(struct level *level, int a, int b, float length_m)
 static void add_node(struct cloth *cloth, struct level *level, int from, const int *member)
 {
 	struct cloth_scratch *s = cloth->scratch;
-	struct march march = {cloth, s, 0, link_share * level->spacing_m};
+	struct march march;
+	float way_m;
 	int node = level->node_count++;
 	level->node[node] = member[from];
-	s->way_now++;
-	offer(&march, from, 0.0f);
-	while (march.heap_count > 0) {
-		int v = heap_pop(&march);
-		float way_m = s->way_m[v];
-		pass_on(&march, v);
+	march_begin(&march, cloth, from, link_share * level->spacing_m);
+	for (int v; (v = march_next(&march, &way_m)) >= 0;) {
 		if (member[v] < 0)
 			continue;
 		if (way_m < level->spacing_m)

@@ -16,8 +16,6 @@ enum {
 	LEVEL_PASSES = 2,
 	LEVEL_NODES_MAX = GARMENT_VERTICES_MAX / 8,
 	LEVEL_LINKS_MAX = 8 * LEVEL_NODES_MAX,
-	HEAP_NEW = -1,
-	HEAP_DONE = -2,
 };
 
 /* Where a fold was turned back the cloth bends less, or the fold would come again. */
@@ -33,6 +31,12 @@ struct rest {
 struct flat {
 	int v[4];
 	float k[4];
+};
+
+/* A corner q of a triangle seen from another, p: how far it is, and where it lies beside the way
+ * from p to the third. */
+struct aside {
+	float length_m, x, y;
 };
 
 /* Two nodes, never farther apart than the way through the cloth. */
@@ -106,7 +110,9 @@ struct cloth_scratch {
 	uint8_t *covered;
 	float *way_m; /* per particle, from the node that marches */
 	int *way_of, way_now;
-	int *heap, *heap_at;
+	uint64_t *heap;
+	int *heap_at;
+	struct aside *aside; /* per entry of cloth.ring */
 
 	int *edge_first;    /* per vertex + 1, while edges are paired */
 	int *edge_triangle; /* triangle * 3 + corner */
@@ -152,6 +158,18 @@ static inline float layer_lift(const struct cloth *cloth, int v)
 void cloth_build(struct cloth *cloth);
 void cloth_order(struct cloth *cloth);
 void cloth_build_levels(struct cloth *cloth);
+
+/* Ways through the cloth from a particle to others, nearest first, up to limit_m (cloth_march.c).
+ */
+struct march {
+	struct cloth *cloth;
+	float limit_m;
+	int waiting;
+};
+
+void march_build(struct cloth *cloth);
+void march_begin(struct march *march, struct cloth *cloth, int from, float limit_m);
+int march_next(struct march *march, float *way_m); /* -1: there is none */
 
 /* Fills the kernels' batches with what is placed, if that has changed. */
 void cloth_take(struct cloth *cloth);
