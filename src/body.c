@@ -23,11 +23,12 @@ void body_init(struct body *body, struct arena *arena)
 	body->node = ARENA_ARRAY(arena, struct bvh_node, NODES_MAX);
 	body->node_triangle = ARENA_ARRAY(arena, int, BODY_TRIANGLES_MAX);
 	body->near = near_tree_init(arena);
-	body->clear_m = ARENA_ARRAY(arena, float, BODY_TRIANGLES_MAX);
+	body->prism = ARENA_ARRAY(arena, struct prism, BODY_TRIANGLES_MAX);
+	body->clear = ARENA_ARRAY(arena, struct ball, BODY_TRIANGLES_MAX);
+	body->corner_clear = ARENA_ARRAY(arena, struct ball, BODY_VERTICES_MAX);
 	struct body_scratch *scratch = ARENA_ARRAY(arena, struct body_scratch, 1);
 	scratch->centre_m = ARENA_ARRAY(arena, struct v3, BODY_TRIANGLES_MAX);
 	scratch->fill = ARENA_ARRAY(arena, int, BODY_VERTICES_MAX);
-	scratch->clear_m = ARENA_ARRAY(arena, float, BODY_VERTICES_MAX);
 	scratch->parts = parts_init(arena);
 	scratch->landmarks = landmark_init(arena);
 	body->scratch = scratch;
@@ -306,6 +307,7 @@ const char *body_build(struct body *body, const struct v3 *position_m, int verte
 		find_neighbours(body);
 	}
 	build_normals(body);
+	body_build_prisms(body);
 	build_tree(body);
 	body_find_clear(body);
 	memset(body->part, PART_TRUNK, (size_t)body->triangle_count);

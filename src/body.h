@@ -18,6 +18,12 @@ struct bvh_node {
 	int count; /* triangles in a leaf, 0 in an inner node */
 };
 
+/* A ball that no surface reaches into. */
+struct ball {
+	struct v3 centre_m;
+	float radius_m;
+};
+
 struct body {
 	int vertex_count;
 	struct v3 *position_m;
@@ -33,7 +39,9 @@ struct body {
 	struct bvh_node *node;
 	int *node_triangle; /* slots */
 	struct near_tree *near;
-	float *clear_m; /* per triangle: to points above it, no farther, nothing else is nearer */
+	struct prism *prism;       /* per triangle (body_look.h) */
+	struct ball *clear;        /* per triangle: on its middle, without surface in it */
+	struct ball *corner_clear; /* per vertex */
 	int bone_count; /* spine from the pelvis up, neck, head, limbs; collar-bones and hips last
 			 */
 	struct bone bone[BODY_BONES_MAX];
@@ -91,15 +99,17 @@ struct body_track {
 	int triangle;   /* that holds its nearest point; -1: never looked */
 	unsigned parts; /* that were asked for */
 	struct v3 at_m; /* where it was looked up */
-	float least_m;  /* no surface was nearer to it there */
+	float least_m;  /* no surface was nearer to it there; */
+	float off_m;    /* and the one found was so much farther at most */
 };
 
 /* The nearest point within BODY_NEAR_M of a point that moves: a walk from the last one, and the
- * exact query where neither the surface below (body.clear_m) nor the way gone since the last exact
- * query shows that the walk has found it; right to 1 mm (track_slack_m and what clear_m leaves).
- * Farther points are looked up exactly when they have gone a quarter of their distance; until then
- * the hit stays as it is and false is returned. hit->normal is the direction of the distance. Adds
- * the triangles looked at to *units. */
+ * exact query where nothing proves that the walk has found it. A ball without surface in it
+ * (body.clear) and the last look prove how near another surface can be at most: no nearer than the
+ * ball's rim, or than it was before the point moved. What is found is so right to 0.9 mm
+ * (track->off_m says how well). Farther points are looked up, to a tenth of their distance, when
+ * they have gone a quarter of it; until then the hit stays as it is and false is returned.
+ * hit->normal is the direction of the distance. Adds the triangles looked at to *units. */
 bool body_track(const struct body *body, struct v3 point_m, unsigned parts,
 		struct body_track *track, struct body_hit *hit, long *units);
 

@@ -4,12 +4,20 @@
 #define BODY_LOOK_H
 
 #include "body.h"
+#include "lanes.h"
 
 /* Which feature of a triangle a nearest point lies on. */
 enum feature {
 	ON_FACE,
 	ON_EDGE,                 /* + k: v[k] v[k+1] */
 	ON_VERTEX = ON_EDGE + 3, /* + k */
+};
+
+/* What lies over a triangle, as four slopes in one cache line: column[0] x + column[1] y +
+ * column[2] z + column[3] are the weights of its corners at a point's foot on its plane, and the
+ * height over it. */
+struct prism {
+	lanes column[4];
 };
 
 /* The nearest point found so far (body_near.c). */
@@ -106,15 +114,64 @@ static inline int near_walk(const struct body *body, struct v3 point_m, unsigned
 	return looked;
 }
 
+static inline struct v3 prism_normal(const struct prism *prism)
+{
+	return (struct v3){prism->column[0][3], prism->column[1][3], prism->column[2][3]};
+}
+
+/* Beyond edge k of both its triangles: the nearest point lies on it, unless beside its ends. */
+static inline bool near_edge(const struct body *body, struct v3 p, int t, int k,
+			     struct nearest *best)
+{
+	const int *v = body->triangle[t].v;
+	struct v3 a = body->position_m[v[k]], b = body->position_m[v[k == 2 ? 0 : k + 1]];
+	struct v3 ab = v3_sub(b, a), ap = v3_sub(p, a);
+	float along = v3_dot(ap, ab), length2 = v3_dot(ab, ab);
+	if (!(along > 0.0f && along < length2))
+		return false;
+	struct v3 q = v3_mad(a, ab, along / length2), d = v3_sub(p, q);
+	*best = (struct nearest){t, ON_EDGE + k, q, v3_dot(d, d)};
+	return true;
+}
+
+/* The nearest point near triangle `from`: over edges to the prism that holds the point, as most
+ * points lie in one; else downhill from where that went astray. Returns the triangles looked at. */
+static inline int near_descend(const struct body *body, struct v3 p, unsigned parts, int from,
+			       int steps_max, struct nearest *best)
+{
+	int t = from, before = -1, looked = 0;
+	while (looked++ < steps_max) {
+		const struct prism *prism = &body->prism[t];
+		lanes at = prism->column[0] * lanes_of(p.x) + prism->column[1] * lanes_of(p.y) +
+			   prism->column[2] * lanes_of(p.z) + prism->column[3];
+		float a = at[0], b = at[1], c = at[2];
+		if (a >= 0.0f && b >= 0.0f && c >= 0.0f) {
+			*best = (struct nearest){t, ON_FACE, v3_mad(p, prism_normal(prism), -at[3]),
+						 at[3] * at[3]};
+			return looked;
+		}
+		int edge = a <= b && a <= c ? 1 : b <= c ? 2 : 0; /* opposite the lowest weight */
+		int next = body->neighbour[3 * t + edge];
+		if (next == before && near_edge(body, p, t, edge, best))
+			return looked;
+		if (next == before || !near_allowed(body, next, parts))
+			break;
+		before = t;
+		t = next;
+	}
+	near_look(body, p, t, best);
+	return looked + near_walk(body, p, parts, steps_max, best);
+}
+
 /* The normal that decides the side: of the face, of both faces of an edge, or angle-weighted. */
 static inline struct v3 side_normal(const struct body *body, const struct nearest *n)
 {
 	if (n->feature >= ON_VERTEX)
 		return body->normal[body->triangle[n->triangle].v[n->feature - ON_VERTEX]];
-	struct v3 normal = body->face_normal[n->triangle];
+	struct v3 normal = prism_normal(&body->prism[n->triangle]);
 	if (n->feature >= ON_EDGE) {
 		int across = body->neighbour[3 * n->triangle + n->feature - ON_EDGE];
-		normal = v3_add(normal, body->face_normal[across]);
+		normal = v3_add(normal, prism_normal(&body->prism[across]));
 	}
 	return normal;
 }

@@ -2,6 +2,8 @@
 #include "body_private.h"
 #include "body_tree.h"
 
+static const float narrow_m2 = 1e-9f; /* twice the area */
+
 struct v3 body_smooth_normal(const struct body *body, int t, struct v3 q)
 {
 	const int *v = body->triangle[t].v;
@@ -25,6 +27,36 @@ static void finish(const struct body *body, struct v3 p, const struct nearest *n
 	hit->point_m = n->point_m;
 	hit->normal = body_smooth_normal(body, n->triangle, n->point_m);
 	hit->distance_m = near_signed_m(body, p, n);
+}
+
+static void set_row(struct prism *prism, int row, struct v3 slope, float at_origin)
+{
+	prism->column[0][row] = slope.x;
+	prism->column[1][row] = slope.y;
+	prism->column[2][row] = slope.z;
+	prism->column[3][row] = at_origin;
+}
+
+/* A triangle too narrow to tell has no prism: all its weights are below 0. */
+void body_build_prisms(struct body *body)
+{
+	for (int t = 0; t < body->triangle_count; t++) {
+		const int *v = body->triangle[t].v;
+		struct v3 n = body->face_normal[t];
+		for (int k = 0; k < 3; k++) {
+			struct v3 a = body->position_m[v[(k + 1) % 3]],
+				  b = body->position_m[v[(k + 2) % 3]];
+			struct v3 inward = v3_cross(n, v3_sub(b, a));
+			float height = v3_dot(inward, v3_sub(body->position_m[v[k]], a));
+			if (height > narrow_m2) {
+				struct v3 slope = v3_scale(inward, 1.0f / height);
+				set_row(&body->prism[t], k, slope, -v3_dot(slope, a));
+			} else {
+				set_row(&body->prism[t], k, (struct v3){0}, -1.0f);
+			}
+		}
+		set_row(&body->prism[t], 3, n, -v3_dot(n, body->position_m[v[0]]));
+	}
 }
 
 /* Does the point lie where the parts asked for end? There the surface has no side. */
@@ -66,17 +98,19 @@ static void look_block(const struct body *body, struct v3 point_m, const struct 
 }
 
 /* Nearer children first; what has become too far meanwhile is dropped when its turn comes. */
-void near_search(const struct body *body, struct v3 point_m, unsigned parts, struct nearest *best)
+void near_search(const struct body *body, struct v3 point_m, unsigned parts, float share,
+		 struct nearest *best)
 {
 	const struct near_tree *tree = body->near;
 	struct waiting stack[TREE_STACK_MAX];
 	struct lanes3 p = lanes3_of(point_m);
+	float share2 = share * share;
 	int depth = 0;
 	MUST(body->triangle_count > 0);
 	stack[depth++] = (struct waiting){0, 0.0f};
 	while (depth > 0) {
 		struct waiting top = stack[--depth];
-		if (top.d2 >= best->d2)
+		if (top.d2 >= share2 * best->d2)
 			continue;
 		if (top.node < 0) {
 			look_block(body, point_m, &tree->block[~top.node], p, parts, best);
@@ -87,7 +121,7 @@ void near_search(const struct body *body, struct v3 point_m, unsigned parts, str
 		int bottom = depth;
 		MUST(depth + LANES <= TREE_STACK_MAX);
 		for (int k = 0; k < LANES; k++) {
-			if (!(d2[k] < best->d2))
+			if (!(d2[k] < share2 * best->d2))
 				continue;
 			int at = depth++;
 			for (; at > bottom && stack[at - 1].d2 < d2[k]; at--)
@@ -103,7 +137,7 @@ void body_nearest_from(const struct body *body, struct v3 point_m, unsigned part
 	struct nearest best = nearest_none;
 	if (from >= 0 && near_allowed(body, from, parts))
 		near_look(body, point_m, from, &best);
-	near_search(body, point_m, parts, &best);
+	near_search(body, point_m, parts, 1.0f, &best);
 	finish(body, point_m, &best, hit);
 	if (parts && near_on_rim(body, &best, parts))
 		hit->distance_m = sqrtf(best.d2) + near_rim_m;
@@ -118,8 +152,7 @@ int body_walk(const struct body *body, struct v3 point_m, int from, int steps_ma
 	      struct body_hit *hit)
 {
 	struct nearest best = nearest_none;
-	near_look(body, point_m, from, &best);
-	int looked = 1 + near_walk(body, point_m, 0, steps_max, &best);
+	int looked = near_descend(body, point_m, 0, from, steps_max, &best);
 	finish(body, point_m, &best, hit);
 	return looked;
 }

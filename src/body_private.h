@@ -11,18 +11,20 @@ enum { TREE_STACK_MAX = 64 }; /* twice the depth of a median tree of all triangl
 struct body_scratch {
 	struct v3 *centre_m; /* per triangle, while the tree is built */
 	int *fill;           /* per vertex, while stars are built */
-	float *clear_m;      /* per vertex, while body.clear_m is found */
 	struct parts_scratch *parts;
 	struct landmark_scratch *landmarks;
 };
 
-/* The nearest triangle of all, through the tree, when one is nearer than the best. */
-void near_search(const struct body *body, struct v3 p, unsigned parts, struct nearest *best);
+/* The nearest triangle of all, through the tree, when one is nearer than the best. What is not
+ * nearer than `share` of the best need not be found: 1 for an exact query. */
+void near_search(const struct body *body, struct v3 p, unsigned parts, float share,
+		 struct nearest *best);
 
 /* Does the point lie where the parts asked for end? */
 bool near_on_rim(const struct body *body, const struct nearest *nearest, unsigned parts);
 
-/* How far from each triangle a walk can be trusted (body_track.c). */
+/* body.prism; then, with the tree, the balls by which a walk can be trusted (body_track.c). */
+void body_build_prisms(struct body *body);
 void body_find_clear(struct body *body);
 
 /* The vertex normals interpolated at a point of triangle t. */

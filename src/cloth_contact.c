@@ -7,14 +7,19 @@ enum {
 	RAY_UNITS = 32, /* a segment's way through the tree, in triangles looked at */
 };
 
-static const float look_again_m = 0.0005f; /* the plane serves so far from where it was found */
+static const float plane_off_m = 0.001f;   /* a plane that may be so wrong is found anew */
 static const float near_m = 0.03f;         /* farther cloth can't touch in the next sweeps */
 static const float push_max_m = 0.015f;    /* deepest step out in one sweep */
-static const float skin_m = 0.0005f;       /* what would pass through is stopped so far outside */
 static const float near_margin_m = 0.001f; /* faces so little farther off are looked at too */
 static const float lift_max_m = 0.015f;    /* highest a particle is lifted for its faces */
 static const float cleft_facing = 0.3f;    /* cosine between normals: less, and a cleft is there */
 static const float lift_slack_m = 0.0015f; /* faces this clear let their corners down again */
+
+/* How far from the body the particle stays, before its faces ask for more. */
+static float clearance(const struct cloth *cloth, int v)
+{
+	return cloth->settings.offset_m + layer_lift(cloth, v);
+}
 
 static long look(struct cloth *cloth, int v)
 {
@@ -35,9 +40,10 @@ void cloth_look(struct cloth *cloth, int v)
 }
 
 /* However far a particle was moved since its last look, it has not passed through the body: it
- * stops where its way meets the surface. Only a way as long as the distance was can meet it (the
- * displacement bound of Chen et al., "Offset Geometric Contact", 2025, here with the exact way
- * instead of a shorter step, since the body stands still). */
+ * stops on its way, where it comes as near to the surface as cloth may be. Only a way as long as
+ * the distance was can meet it (the displacement bound of Chen et al., "Offset Geometric Contact",
+ * 2025, here with the exact way instead of a shorter step, since the body stands still). It has no
+ * motion left then. */
 static long stop_at_surface(struct cloth *cloth, int v)
 {
 	const struct body_track *track = &cloth->scratch->track[v];
@@ -48,8 +54,23 @@ static long stop_at_surface(struct cloth *cloth, int v)
 	    !body_segment_hits(cloth->body, track->at_m, *p, &hit) ||
 	    (parts && !(parts >> cloth->body->part[hit.triangle] & 1)))
 		return RAY_UNITS;
-	*p = v3_mad(hit.point_m, cloth->body->face_normal[hit.triangle], skin_m);
+	struct v3 way = v3_sub(*p, track->at_m);
+	float sinks = -v3_dot(way, cloth->body->face_normal[hit.triangle]);
+	float before = clearance(cloth, v) / float_max(sinks, 1e-6f);
+	*p = v3_mad(track->at_m, way, float_max(hit.distance_m - before, 0.0f));
+	cloth->previous_m[v] = *p;
 	return RAY_UNITS;
+}
+
+/* How wrong the plane's distance may be, `way` from where it was found: the surface can be nearer
+ * than it was there by as much, and the plane is left behind by what the particle has risen. */
+static float plane_off(const struct cloth *cloth, int v, struct v3 gone, float way)
+{
+	const struct contact *contact = &cloth->contact[v];
+	float risen = v3_dot(gone, contact->normal);
+	if (contact->distance_m < 0.0f)
+		risen = -risen;
+	return cloth->scratch->track[v].off_m + way + float_max(risen, 0.0f);
 }
 
 static long refresh(struct cloth *cloth, int v)
@@ -60,18 +81,13 @@ static long refresh(struct cloth *cloth, int v)
 		track->triangle = -1; /* new, or its contact was taken from elsewhere */
 		return look(cloth, v);
 	}
-	float way = v3_distance(cloth->position_m[v], track->at_m);
-	if (way < look_again_m && track->parts == allowed_parts(cloth, v))
+	struct v3 gone = v3_sub(cloth->position_m[v], track->at_m);
+	float way = v3_length(gone);
+	if (plane_off(cloth, v, gone, way) < plane_off_m && track->parts == allowed_parts(cloth, v))
 		return 1;
 	if (way > track->least_m)
 		units += stop_at_surface(cloth, v);
 	return units + look(cloth, v);
-}
-
-/* How far from the body the particle stays, before its faces ask for more. */
-static float clearance(const struct cloth *cloth, int v)
-{
-	return cloth->settings.offset_m + layer_lift(cloth, v);
 }
 
 /* Up to where the particle's faces need it. Returns how far. */
@@ -130,15 +146,18 @@ static void find_quiet(struct cloth *cloth, int v)
 	const struct body_track *track = &cloth->scratch->track[v];
 	struct v3 p = cloth->position_m[v];
 	float gone = v3_distance(p, track->at_m);
-	float looked = float_max(look_again_m, body_track_idle_m(track));
+	float looked = float_max(0.5f * (plane_off_m - track->off_m), body_track_idle_m(track));
 	float way = float_min(cloth_spare(cloth, v), float_min(looked, track->least_m) - gone);
 	cloth->scratch->quiet[v] = (struct quiet){p, way > 0.0f ? way * way : 0.0f};
 }
 
+/* After the push the plane is found anew where it left the particle: what was pushed far into a
+ * hollow has another surface below it. */
 long cloth_touch(struct cloth *cloth, int v)
 {
 	long units = refresh(cloth, v);
 	push(cloth, v);
+	units += refresh(cloth, v);
 	find_quiet(cloth, v);
 	return units;
 }

@@ -318,6 +318,47 @@ static void test_walk(void)
 	}
 }
 
+/* ---- tracking ---- */
+
+enum { TRACKS = 600, TRACK_STEPS = 150 };
+
+/* What is believed of points that wander about the figure, through the hollows under the arms and
+ * between the legs, is proven: no surface is nearer than least_m, and what was found is no farther
+ * than off_m beyond that. */
+static void test_tracks(void)
+{
+	struct scatter scatter = {777};
+	struct body_hit exact, hit = {0};
+	long units = 0, looks = 0;
+	int unproven = 0, off = 0, far_missed = 0;
+	CHECK(!body_build_mannequin(&body));
+	for (int i = 0; i < TRACKS; i++) {
+		int v = scatter_below(&scatter, body.vertex_count);
+		float height_m = 0.0005f * (float)scatter_below(&scatter, 100);
+		float step_m = 0.001f * (float)(1 + scatter_below(&scatter, 8));
+		struct v3 p = v3_mad(body.position_m[v], body.normal[v], height_m);
+		struct body_track track = {.triangle = -1};
+		for (int step = 0; step < TRACK_STEPS; step++) {
+			p = v3_add(p, shape_random_point(&scatter, step_m));
+			bool looked = body_track(&body, p, 0, &track, &hit, &units);
+			body_nearest(&body, p, 0, &exact);
+			float length = float_abs(exact.distance_m);
+			far_missed += !looked && length < BODY_NEAR_M;
+			if (!looked || length > BODY_NEAR_M)
+				continue;
+			looks++;
+			unproven += length < track.least_m - 1e-6f ||
+				    float_abs(hit.distance_m) > track.least_m + track.off_m + 1e-6f;
+			off += float_abs(hit.distance_m) > length + 0.001f;
+		}
+	}
+	CHECK(looks > TRACKS * TRACK_STEPS / 2);
+	CHECK(unproven == 0);
+	CHECK(off == 0);
+	CHECK(far_missed == 0);
+	CHECK(units < 12 * looks); /* few of them by the exact query */
+}
+
 /* ---- rays ---- */
 
 static void test_rays(void)
@@ -388,6 +429,7 @@ int main(void)
 	test_box();
 	test_truth();
 	test_walk();
+	test_tracks();
 	test_rays();
 	test_ray_gaps();
 	return test_end();
