@@ -1,4 +1,5 @@
 #include "cloth_private.h"
+#include "cloth_refine.h"
 #include "cloth_self.h"
 #include "fabric.h"
 
@@ -82,6 +83,7 @@ void cloth_init(struct cloth *cloth, struct arena *arena)
 	init_levels(s, arena);
 	cloth->scratch = s;
 	cloth->self = cloth_self_init(arena);
+	cloth->refine = cloth_refine_init(arena);
 	cloth->lanes = 4;
 	cloth->settings = cloth_settings_worn();
 }

@@ -65,6 +65,7 @@ struct cloth {
 	struct cloth_settings settings;
 	struct cloth_scratch *scratch; /* owned by cloth_*.c */
 	struct cloth_self *self;       /* owned by cloth_self*.c */
+	struct cloth_refine *refine;   /* owned by cloth_refine.c */
 };
 
 void cloth_init(struct cloth *cloth, struct arena *arena);

@@ -31,6 +31,9 @@ void cloth_self_forget(struct cloth *cloth, const uint8_t *flagged);
 /* Edges that passed through other triangles when last looked at. */
 int cloth_crossings(const struct cloth *cloth);
 
+/* Sets 1 for the particles of triangles that took part in those; the others stay as they are. */
+void cloth_flag_crossed(const struct cloth *cloth, uint8_t *flagged);
+
 /* Looks at the whole cloth at once; units. */
 long cloth_self_look(struct cloth *cloth);
 

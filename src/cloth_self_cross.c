@@ -230,3 +230,14 @@ int cloth_crossings(const struct cloth *cloth)
 		count += cloth->self->crossing[i].through;
 	return count;
 }
+
+void cloth_flag_crossed(const struct cloth *cloth, uint8_t *flagged)
+{
+	for (int i = 0; i < cloth->self->crossing_count; i++) {
+		const struct crossing *crossing = &cloth->self->crossing[i];
+		for (int k = 0; k < 3; k++) {
+			flagged[cloth->triangle[crossing->edge / 3].v[k]] = 1;
+			flagged[cloth->triangle[crossing->triangle].v[k]] = 1;
+		}
+	}
+}

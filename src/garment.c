@@ -24,6 +24,9 @@ void garment_init(struct garment *garment, struct arena *arena)
 	garment->triangle = ARENA_ARRAY(arena, struct triangle, GARMENT_TRIANGLES_MAX);
 	garment->triangle_piece = ARENA_ARRAY(arena, int, GARMENT_TRIANGLES_MAX);
 	garment->pair = ARENA_ARRAY(arena, struct seam_pair, SEAM_PAIRS_MAX);
+	garment->base = ARENA_ARRAY(arena, struct triangle, GARMENT_TRIANGLES_MAX);
+	garment->depth = ARENA_ARRAY(arena, uint8_t, GARMENT_TRIANGLES_MAX);
+	garment->place = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
 }
 
 struct garment_job *garment_job_init(struct arena *arena)
@@ -40,6 +43,7 @@ const char *garment_start(struct garment_job *job, struct garment *garment,
 			  const struct pattern *pattern, int vertices)
 {
 	garment->vertex_count = garment->triangle_count = garment->pair_count = 0;
+	garment->base_count = 0;
 	memset(garment->piece_first, 0, sizeof garment->piece_first);
 	memset(garment->piece_first_triangle, 0, sizeof garment->piece_first_triangle);
 	job->garment = garment;

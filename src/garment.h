@@ -33,6 +33,13 @@ struct garment {
 	int piece_first_triangle[PIECES_MAX + 1];
 	int layer[PIECES_MAX]; /* of a piece's garment: 0 is worn next to the body */
 	float edge_m;          /* the edge length aimed at */
+
+	/* Refined (garment_refine.h), the triangles above are made of these. 0: it is not. */
+	int base_count;
+	struct triangle *base; /* corners counted among the vertices of which `place` is -1 */
+	uint8_t *depth;        /* per base triangle: 0 .. REFINE_DEPTH_MAX */
+	int *place; /* per vertex, when refined: REFINE_PLACES * base triangle + where in it; -1: it
+		       was there before */
 };
 
 void garment_init(struct garment *garment, struct arena *arena);

@@ -129,6 +129,7 @@ static const char *clear(struct session *session)
 	session->garment.vertex_count = 0;
 	session->garment.triangle_count = 0;
 	session->garment.pair_count = 0;
+	session->garment.base_count = 0;
 	return NULL;
 }
 

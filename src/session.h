@@ -61,7 +61,7 @@ struct session {
 	long work_units;            /* spent so far */
 	long frame_units;           /* spent in the last frame */
 	int untouched_frames;       /* since an edit last woke the cloth */
-	int unfolds;                /* since then */
+	int unfolds, refines;       /* since then */
 	int rest_frames;            /* frames since the cloth last had a reason to move */
 	int relax_frames;           /* for which RELAX has been held */
 	int still_frames;           /* 0: still moving; else frames of getting ready for sleep */

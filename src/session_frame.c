@@ -1,4 +1,5 @@
 /* One frame: a job by the frame's budget, or the worn cloth until it rests. */
+#include "cloth_refine.h"
 #include "cloth_self.h"
 #include "session_private.h"
 
@@ -11,6 +12,7 @@ enum {
 	SLEEP_FRAMES = 300, /* and here the cloth goes to sleep in any case */
 	UNFOLDS_MAX = 4,    /* before it may */
 	UNTANGLES_MAX = 2,
+	REFINES_MAX = 2,
 	PUSH_SLICES = 16,
 	STILL_SLICES = 8,  /* frames a round of looking for folds or of cleaning */
 	CLEAN_ROUNDS = 6,  /* at most; two when nothing is found */
@@ -28,6 +30,7 @@ void session_wake(struct session *session)
 	session->rest_frames = 0;
 	session->untouched_frames = 0;
 	session->unfolds = 0;
+	session->refines = 0;
 	session->still_frames = 0;
 	session->asleep = false;
 }
@@ -98,16 +101,31 @@ static void note_rest(struct session *session)
 	session->clean_found = 0;
 }
 
+/* Cloth that came to rest over something thinner than its edges gets finer there, and where it has
+ * left such a place it is taken back. True: it has changed. */
+static bool refine_still(struct session *session, long *units)
+{
+	if (session->refines >= REFINES_MAX || !session->cloth.welded ||
+	    cloth_refine(&session->cloth, &session->garment, true, units) == 0)
+		return false;
+	session->refines++;
+	session_hold_pins(session);
+	return true;
+}
+
 /* The last folds are turned back, and the cloth moves once more; also where it still passes through
- * itself. */
+ * itself, and when it has become finer. */
 static void unfold_slice(struct session *session, int slice, long *units)
 {
 	bool tangled = session->unfolds < UNTANGLES_MAX && cloth_crossings(&session->cloth) > 0;
 	bool folded = session->unfolds < UNFOLDS_MAX && !is_pinned(session) &&
 		      cloth_unfold(&session->cloth, slice, STILL_SLICES, units) > 0;
-	if (slice < STILL_SLICES - 1 || (!tangled && !folded))
+	if (slice < STILL_SLICES - 1)
 		return;
-	session->unfolds++;
+	bool finer = refine_still(session, units);
+	if (!tangled && !folded && !finer)
+		return;
+	session->unfolds += tangled || folded;
 	session->rest_frames = session->still_frames = 0;
 	session->untouched_frames = COOL_FRAMES;
 }

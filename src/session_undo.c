@@ -109,6 +109,10 @@ static void pass_state(struct stream *stream, struct session *session, struct v3
 	PASS(stream, garment->triangle, garment->triangle_count);
 	PASS(stream, garment->triangle_piece, garment->triangle_count);
 	PASS(stream, garment->pair, garment->pair_count);
+	PASS(stream, &garment->base_count, 1);
+	PASS(stream, garment->base, garment->base_count);
+	PASS(stream, garment->depth, garment->base_count);
+	PASS(stream, garment->place, garment->base_count > 0 ? garment->vertex_count : 0);
 	PASS(stream, position_m, garment->vertex_count);
 	PASS(stream, placed, garment->vertex_count);
 	PASS(stream, creased, garment->vertex_count);
