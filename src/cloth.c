@@ -72,6 +72,14 @@ void cloth_init(struct cloth *cloth, struct arena *arena)
 	s->edge_triangle = ARENA_ARRAY(arena, int, 3 * GARMENT_TRIANGLES_MAX);
 	s->flipped = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
 	s->smooth_m = ARENA_ARRAY(arena, struct v3, GARMENT_VERTICES_MAX);
+	s->across = ARENA_ARRAY(arena, int, 3 * GARMENT_TRIANGLES_MAX);
+	s->facing = ARENA_ARRAY(arena, uint8_t, GARMENT_TRIANGLES_MAX);
+	s->turned = ARENA_ARRAY(arena, uint8_t, GARMENT_TRIANGLES_MAX);
+	s->in_patch = ARENA_ARRAY(arena, uint8_t, GARMENT_TRIANGLES_MAX);
+	s->patch = ARENA_ARRAY(arena, int, GARMENT_TRIANGLES_MAX);
+	s->swung = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
+	s->swung_in = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
+	s->hinge = ARENA_ARRAY(arena, int, HINGES_MAX);
 	s->edge_owner = ARENA_ARRAY(arena, uint8_t, GARMENT_TRIANGLES_MAX);
 	s->stiff = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
 	s->track = ARENA_ARRAY(arena, struct body_track, GARMENT_VERTICES_MAX);
@@ -104,6 +112,7 @@ struct cloth_settings cloth_settings_worn(void)
 		.step_max_m = 0.006f,
 		.seam_step_m = 0.0005f,
 		.faces = true,
+		.open = true,
 		.thickness_m = 0.002f,
 	};
 }
@@ -323,6 +332,8 @@ static long sweep(struct cloth *cloth)
 	units += cloth_levels(cloth);
 	units += cloth_shape(cloth);
 	for_all_slots(cloth, put_back);
+	if (cloth->settings.open)
+		units += cloth_hinges(cloth);
 	units += cloth_self(cloth);
 	for_all_slots(cloth, bound_steps);
 	if (cloth->settings.faces)

@@ -34,6 +34,7 @@ struct cloth_settings {
 	float attract_m;   /* pull of drawn pieces to a body farther than 35 mm; 0: none */
 	bool filter_parts; /* each piece only meets the body parts that piece_parts allows */
 	bool faces;        /* also keep edge midpoints and triangle centres outside */
+	bool open;         /* folds that are not wanted turn back */
 	float thickness_m; /* cloth stays this far from other cloth; 0: passes through it */
 };
 

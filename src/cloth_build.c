@@ -100,6 +100,7 @@ static void pair_edges(struct cloth *cloth)
 	const struct triangle *triangle = cloth->triangle;
 	cloth->flat_count = 0;
 	memset(s->edge_owner, 7, (size_t)cloth->garment->triangle_count);
+	memset(s->across, 0xff, 3 * (size_t)cloth->garment->triangle_count * sizeof *s->across);
 	for (int v = 0; v < cloth->garment->vertex_count; v++)
 		for (int i = s->edge_first[v]; i < s->edge_first[v + 1]; i++)
 			for (int j = i + 1; j < s->edge_first[v + 1]; j++) {
@@ -111,6 +112,8 @@ static void pair_edges(struct cloth *cloth)
 				if (e_high != f_high || cloth->flat_count == GARMENT_EDGES_MAX)
 					continue;
 				add_flat(cloth, e, f);
+				s->across[e] = f;
+				s->across[f] = e;
 				s->edge_owner[f / 3] &= (uint8_t) ~(1 << f % 3);
 			}
 }
@@ -136,9 +139,20 @@ static void build_stars(struct cloth *cloth)
 		}
 }
 
+/* Nothing is known of the new cloth's folds. */
+static void forget_folds(struct cloth *cloth)
+{
+	struct cloth_scratch *s = cloth->scratch;
+	memset(s->facing, 0, (size_t)cloth->garment->triangle_count);
+	memset(s->turned, 0, (size_t)cloth->garment->triangle_count);
+	memset(s->swung_in, 0, (size_t)cloth->garment->vertex_count * sizeof *s->swung_in);
+	s->open_count = s->facing_in = s->swing = 0;
+}
+
 void cloth_build(struct cloth *cloth)
 {
 	build_rest(cloth);
+	forget_folds(cloth);
 	take_particles(cloth);
 	list_edges(cloth);
 	pair_edges(cloth);

@@ -16,6 +16,8 @@ enum {
 	LEVEL_PASSES = 2,
 	LEVEL_NODES_MAX = GARMENT_VERTICES_MAX / 8,
 	LEVEL_LINKS_MAX = 8 * LEVEL_NODES_MAX,
+	HINGES_MAX = GARMENT_VERTICES_MAX, /* edges about which folds open at a time, */
+	FOLDS_MAX = 256,                   /* and folds */
 };
 
 /* Where a fold was turned back the cloth bends less, or the fold would come again. */
@@ -58,6 +60,12 @@ struct level {
 	int taut_count; /* links between placed nodes */
 	struct link *taut;
 	struct place *at, *move; /* per node, in a sweep */
+};
+
+/* A fold that opens: its hinges, and the patch beyond them if it turns as a whole. */
+struct fold {
+	int first, end; /* of cloth_scratch.patch */
+	int hinge_first, hinge_end;
 };
 
 /* Within so far (squared) of a place a particle neither touches the body nor needs a new look. */
@@ -119,9 +127,23 @@ struct cloth_scratch {
 	uint8_t *flipped;   /* per particle, while folds are turned back */
 	int fold_count;     /* found since the first slice of triangles */
 	struct v3 *smooth_m;
+	int *across;         /* 3 per triangle: 3 * neighbour + its edge; -1: a rim */
 	uint8_t *edge_owner; /* per triangle: bit k: edge k is looked at here, not in its neighbour
 			      */
 	uint8_t *stiff;      /* per particle: lay in a fold that was turned back, so bends less */
+
+	/* folds that open (cloth_hinge.c) */
+	uint8_t *facing, *in_patch; /* per triangle */
+	uint8_t *turned;            /* per triangle: rounds since it last faced out */
+	int *patch;
+	int facing_in; /* triangles, since the first slice */
+	int *hinge;    /* 3 * triangle that turns + edge about which */
+	int hinge_count;
+	struct fold fold[FOLDS_MAX];
+	int open_count, swing_rounds;
+	int *swung, *swung_in,
+		swing; /* particles of the fold that swings; per particle: the last */
+
 	struct body_track *track; /* per particle */
 	struct quiet *quiet;      /* per particle */
 	struct contact_stage stage;
@@ -178,6 +200,7 @@ void cloth_take_levels(struct cloth *cloth);
 /* The parts of a sweep; each returns the units it spent. */
 long cloth_levels(struct cloth *cloth);  /* taut cloth pulls, coarse levels first */
 long cloth_shape(struct cloth *cloth);   /* triangles and edges to their rest shapes */
+long cloth_hinges(struct cloth *cloth);  /* folds turn back */
 long cloth_contact(struct cloth *cloth); /* vertices out of the body, friction */
 long cloth_contact_faces(struct cloth *cloth, int slice, int slices); /* midpoints and centres */
 

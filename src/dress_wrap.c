@@ -46,6 +46,7 @@ static struct cloth_settings growing(void)
 	set.grip = 0.0f;
 	set.filter_parts = true;
 	set.faces = false;
+	set.open = false;
 	set.thickness_m = 0.0f; /* what lies over itself is still to come apart */
 	set.seam_step_m = 0.0f;
 	set.attract_m = 0.001f;
@@ -71,6 +72,7 @@ static struct cloth_settings unfolding(void)
 	set.grip = 0.0f;
 	set.offset_m += 0.004f;
 	set.filter_parts = false;
+	set.open = true;
 	return set;
 }
 

@@ -175,6 +175,7 @@ static struct cloth_settings settings_now(const struct session *session)
 	if (session->relaxing)
 		return cloth_settings_relax();
 	struct cloth_settings settings = cloth_settings_worn();
+	settings.open = !session->drag.active;
 	int cooling = session->untouched_frames - COOL_FRAMES;
 	float warmth = 1.0f - (float)cooling / (float)(SLEEP_FRAMES - COOL_FRAMES);
 	settings.momentum *= float_clamp(warmth, 0.0f, 1.0f);
