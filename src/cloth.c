@@ -84,6 +84,7 @@ void cloth_init(struct cloth *cloth, struct arena *arena)
 	s->stiff = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
 	s->track = ARENA_ARRAY(arena, struct body_track, GARMENT_VERTICES_MAX);
 	s->quiet = ARENA_ARRAY(arena, struct quiet, GARMENT_VERTICES_MAX);
+	s->face_quiet = ARENA_ARRAY(arena, struct face_quiet, GARMENT_TRIANGLES_MAX);
 	s->lift_m = ARENA_ARRAY(arena, float, GARMENT_VERTICES_MAX);
 	s->lift_way = ARENA_ARRAY(arena, struct v3, GARMENT_VERTICES_MAX);
 	s->slack_m = ARENA_ARRAY(arena, float, GARMENT_VERTICES_MAX);
@@ -146,6 +147,7 @@ void cloth_reset(struct cloth *cloth, const struct garment *garment, const struc
 	memset(cloth->scratch->lift_way, 0, GARMENT_VERTICES_MAX * sizeof(struct v3));
 	memset(cloth->scratch->slack_m, 0, GARMENT_VERTICES_MAX * sizeof(float));
 	memset(cloth->scratch->quiet, 0, GARMENT_VERTICES_MAX * sizeof(struct quiet));
+	memset(cloth->scratch->face_quiet, 0, GARMENT_TRIANGLES_MAX * sizeof(struct face_quiet));
 	if (!garment)
 		return;
 	for (int v = 0; v < garment->vertex_count; v++)

@@ -14,6 +14,7 @@ static const float near_margin_m = 0.001f; /* faces so little farther off are lo
 static const float lift_max_m = 0.015f;    /* highest a particle is lifted for its faces */
 static const float cleft_facing = 0.3f;    /* cosine between normals: less, and a cleft is there */
 static const float lift_slack_m = 0.0015f; /* faces this clear let their corners down again */
+static const float still_share = 0.25f;    /* of what a face has to spare, and it counts as still */
 
 /* How far from the body the particle stays, before its faces ask for more. */
 static float clearance(const struct cloth *cloth, int v)
@@ -174,6 +175,8 @@ static void note_stage(struct cloth *cloth)
 	s->stage = now;
 	for (int v = 0; v < cloth->garment->vertex_count; v++)
 		s->quiet[v].way2_m2 = 0.0f;
+	for (int t = 0; t < cloth->garment->triangle_count; t++)
+		s->face_quiet[t].far_m = s->face_quiet[t].near_m = 0.0f;
 }
 
 struct contact_pass {
@@ -242,8 +245,9 @@ static void lift(struct cloth *cloth, int v, struct v3 up, float by_m)
 	s->lift_m[v] = float_clamp(high, s->lift_m[v], lift_max_m);
 }
 
-/* How much a point of a face, as weights of its corners, lacks; its corners are lifted by it. */
-static long lift_point(struct cloth *cloth, const int v[3], const float weight[3])
+/* How much a point of a face, as weights of its corners, lacks; its corners are lifted by it. What
+ * it has to spare bounds *spare_m. */
+static long lift_point(struct cloth *cloth, const int v[3], const float weight[3], float *spare_m)
 {
 	struct cloth_scratch *s = cloth->scratch;
 	struct v3 p = {0.0f, 0.0f, 0.0f};
@@ -258,6 +262,7 @@ static long lift_point(struct cloth *cloth, const int v[3], const float weight[3
 	int looked = body_walk(cloth->body, p, cloth->contact[v[nearest]].triangle, WALK_STEPS_MAX,
 			       &hit);
 	float lack = offset - hit.distance_m;
+	*spare_m = float_min(*spare_m, -lack);
 	for (int k = 0; k < 3; k++)
 		if (weight[k] > 0.0f)
 			s->slack_m[v[k]] = float_min(s->slack_m[v[k]], -lack);
@@ -269,17 +274,44 @@ static long lift_point(struct cloth *cloth, const int v[3], const float weight[3
 	return looked;
 }
 
-static bool near_body(const struct cloth *cloth, const int v[3])
+/* How much farther from the body the corners are at least than where a face must be looked at. */
+static float face_height(const struct cloth *cloth, const int v[3])
 {
-	bool near = false;
+	const struct cloth_scratch *s = cloth->scratch;
+	float least = 1.0f;
 	for (int k = 0; k < 3; k++) {
 		const struct contact *contact = &cloth->contact[v[k]];
-		if (contact->triangle < 0)
-			return false;
-		near |= contact->distance_m <
-			clearance(cloth, v[k]) + near_margin_m + cloth->scratch->lift_m[v[k]];
+		float gone = v3_distance(cloth->position_m[v[k]], s->track[v[k]].at_m);
+		float need = clearance(cloth, v[k]) + near_margin_m + s->lift_m[v[k]];
+		least = float_min(least, contact->distance_m - gone - need);
 	}
-	return near;
+	return least;
+}
+
+static bool face_rests(const struct cloth *cloth, int t)
+{
+	const struct face_quiet *quiet = &cloth->scratch->face_quiet[t];
+	const int *v = cloth->triangle[t].v;
+	float moved2 = 0.0f;
+	for (int k = 0; k < 3; k++) {
+		struct v3 moved = v3_sub(cloth->position_m[v[k]], quiet->at_m[k]);
+		moved2 = float_max(moved2, v3_dot(moved, moved));
+	}
+	if (moved2 < quiet->far_m * quiet->far_m)
+		return true;
+	if (moved2 >= quiet->near_m * quiet->near_m)
+		return false;
+	for (int k = 0; k < 3; k++)
+		cloth->scratch->slack_m[v[k]] = float_min(cloth->scratch->slack_m[v[k]], 0.0f);
+	return true;
+}
+
+static void note_face(struct cloth *cloth, int t, float clear_m, float still_m)
+{
+	const int *v = cloth->triangle[t].v;
+	const struct v3 *x = cloth->position_m;
+	cloth->scratch->face_quiet[t] = (struct face_quiet){
+		{x[v[0]], x[v[1]], x[v[2]]}, float_max(clear_m, 0.0f), float_max(still_m, 0.0f)};
 }
 
 /* Corners whose faces were clear in the whole last round come down by a fifth. */
@@ -320,9 +352,17 @@ static long look_at_face(struct cloth *cloth, int t)
 	static const float third[3] = {1.0f / 3.0f, 1.0f / 3.0f, 1.0f / 3.0f};
 	const int *v = cloth->triangle[t].v;
 	uint8_t owner = cloth->scratch->edge_owner[t];
-	if (!triangle_placed(cloth, t) || !near_body(cloth, v))
+	if (!triangle_placed(cloth, t) || face_rests(cloth, t))
 		return 0;
-	long units = lift_point(cloth, v, third);
+	for (int k = 0; k < 3; k++)
+		if (cloth->contact[v[k]].triangle < 0)
+			return 0;
+	float spare_m = 1.0f, height_m = face_height(cloth, v);
+	if (height_m >= 0.0f) {
+		note_face(cloth, t, height_m, 0.0f);
+		return 0;
+	}
+	long units = lift_point(cloth, v, third, &spare_m);
 	for (int k = 0; k < 3; k++)
 		if (owner >> k & 1)
 			units += leave_bone(cloth, v[k], v[(k + 1) % 3]);
@@ -331,8 +371,9 @@ static long look_at_face(struct cloth *cloth, int t)
 			float weight[3] = {0.0f, 0.0f, 0.0f};
 			weight[k] = 1.0f - 0.25f * (float)i;
 			weight[(k + 1) % 3] = 0.25f * (float)i;
-			units += lift_point(cloth, v, weight);
+			units += lift_point(cloth, v, weight, &spare_m);
 		}
+	note_face(cloth, t, spare_m - lift_slack_m, still_share * spare_m);
 	return units;
 }
 

@@ -74,7 +74,14 @@ struct quiet {
 	float way2_m2;
 };
 
-/* What the particles' quiet was found for. */
+/* The same for a face, by how far its corners moved since it was looked at: up to far_m it has
+ * nothing to say to the lifts of its corners, up to near_m only that it needs them. */
+struct face_quiet {
+	struct v3 at_m[3];
+	float far_m, near_m;
+};
+
+/* What quiet was found for. */
 struct contact_stage {
 	float offset_m;
 	unsigned piece_parts[PIECES_MAX];
@@ -146,6 +153,7 @@ struct cloth_scratch {
 
 	struct body_track *track; /* per particle */
 	struct quiet *quiet;      /* per particle */
+	struct face_quiet *face_quiet;
 	struct contact_stage stage;
 	float *lift_m;       /* per particle: above offset_m, for the sake of its faces */
 	struct v3 *lift_way; /* per particle: the way it is lifted, a unit vector */
