@@ -5,9 +5,9 @@
 #include "garment_refine.h"
 
 enum {
-	BUILD_UNITS = 200, /* a vertex's share of the cloth's tables, and of its contact */
-	TEST_UNITS = 1,    /* a triangle's edges */
-	ENTRY_BYTES = sizeof(struct v3),
+	BUILD_UNITS = 200, /* a vertex's share of the cloth's tables */
+	TEST_UNITS = 3,    /* a triangle's edges */
+	PAIR_UNITS = 16,   /* a triangle's share of finding what meets at the edges */
 };
 
 /* What is refined stays so while its edges would sink with half the distance: else cloth at the
@@ -16,6 +16,11 @@ static const float keep_share = 0.5f;
 static const float drawn_share = 1.5f; /* longer edges were drawn through by something else */
 static const float bulge_max = 0.2f;   /* edges: crumpled cloth is no surface to be continued */
 static const float out_max_m = 0.05f;  /* the thickest limb that a new vertex is taken out of */
+
+/* The largest entry per vertex that is carried over. */
+static const size_t entry_bytes = sizeof(struct contact) > sizeof(struct body_track)
+					  ? sizeof(struct contact)
+					  : sizeof(struct body_track);
 
 struct cloth_refine {
 	struct refiner refiner;
@@ -30,7 +35,7 @@ struct cloth_refine *cloth_refine_init(struct arena *arena)
 	refiner_init(&refine->refiner, arena);
 	refine->depth = ARENA_ARRAY(arena, uint8_t, GARMENT_TRIANGLES_MAX);
 	refine->crossed = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
-	refine->before = arena_take(arena, GARMENT_VERTICES_MAX, ENTRY_BYTES);
+	refine->before = arena_take(arena, GARMENT_VERTICES_MAX, entry_bytes);
 	return refine;
 }
 
@@ -38,12 +43,12 @@ struct cloth_refine *cloth_refine_init(struct arena *arena)
 
 bool edge_sinks(struct v3 ab_m, struct v3 inward, float distance_m)
 {
-	float length = v3_length(ab_m), reach = distance_m + length;
-	if (length < 1e-6f)
-		return false;
-	float cosine = v3_dot(ab_m, inward) / length;
-	float sine = sqrtf(float_max(1.0f - cosine * cosine, 0.0f));
-	return cosine > 0.0f && reach * sine < length && reach * cosine < length;
+	float along_m = v3_dot(ab_m, inward);
+	if (along_m <= 0.0f)
+		return false; /* cos q > 0 */
+	float length = v3_length(ab_m), reach = (distance_m + length) / length;
+	float aside_m = sqrtf(float_max(length * length - along_m * along_m, 0.0f));
+	return reach * aside_m < length && reach * along_m < length;
 }
 
 static bool sinks_at(const struct cloth *cloth, int a, int b, float share)
@@ -84,10 +89,10 @@ static bool asks(const struct cloth *cloth, int v, int w, bool fine)
 	const struct v2 *rest = cloth->garment->rest_m;
 	const struct v3 *x = cloth->position_m;
 	int a = cloth->particle[v], b = cloth->particle[w];
-	if (v3_distance(x[a], x[b]) > drawn_share * v2_distance(rest[v], rest[w]))
+	if (!sinks(cloth, a, b, fine ? keep_share : 1.0f) ||
+	    v3_distance(x[a], x[b]) > drawn_share * v2_distance(rest[v], rest[w]))
 		return false;
-	return fine ? sinks(cloth, a, b, keep_share)
-		    : sinks(cloth, a, b, 1.0f) && is_lacking(cloth, a, b);
+	return fine || is_lacking(cloth, a, b);
 }
 
 /* The garment's vertex at the centre of a base triangle, which has one. Vertices are sorted by
@@ -167,7 +172,7 @@ static int choose(const struct cloth *cloth, struct cloth_refine *refine, bool c
 static void carry(struct cloth_refine *refine, void *array, size_t size, int count)
 {
 	unsigned char *entry = array, *before = refine->before;
-	MUST(size <= ENTRY_BYTES);
+	MUST(size <= entry_bytes);
 	memcpy(before, entry, GARMENT_VERTICES_MAX * size);
 	for (int v = 0; v < count; v++, entry += size) {
 		int from = refine->refiner.from[v];
@@ -184,11 +189,14 @@ static void carry_all(struct cloth *cloth, struct cloth_refine *refine)
 	int count = cloth->garment->vertex_count;
 	carry(refine, cloth->position_m, sizeof *cloth->position_m, count);
 	carry(refine, cloth->previous_m, sizeof *cloth->previous_m, count);
+	carry(refine, cloth->contact, sizeof *cloth->contact, count);
 	carry(refine, cloth->placed, sizeof *cloth->placed, count);
 	carry(refine, cloth->creased, sizeof *cloth->creased, count);
 	carry(refine, s->stiff, sizeof *s->stiff, count);
 	carry(refine, s->lift_m, sizeof *s->lift_m, count);
 	carry(refine, s->lift_way, sizeof *s->lift_way, count);
+	carry(refine, s->track, sizeof *s->track, count);
+	memset(s->quiet, 0, (size_t)count * sizeof *s->quiet);
 	memset(s->slack_m, 0, (size_t)count * sizeof *s->slack_m);
 	memset(cloth->held, 0, (size_t)count);
 }
@@ -285,6 +293,8 @@ static void leave_body(struct cloth *cloth, const struct refiner *refiner, int v
 		out = v3_add(out, cloth->contact[cloth->garment->weld[parent[k]]].normal);
 	out = v3_normalize(out);
 	struct v3 *p = &cloth->position_m[v];
+	cloth->contact[v].triangle = -1;
+	cloth_look(cloth, v);
 	if (cloth->contact[v].distance_m < 0.0f && v3_dot(out, cloth->contact[v].normal) < 0.0f &&
 	    body_segment_hits(cloth->body, *p, v3_mad(*p, out, out_max_m), &hit)) {
 		*p = v3_mad(hit.point_m, out, cloth->settings.offset_m);
@@ -295,15 +305,10 @@ static void leave_body(struct cloth *cloth, const struct refiner *refiner, int v
 	cloth->previous_m[v] = *p;
 }
 
-/* Contacts afresh; what is new comes out of the body, centres first. */
+/* What is new comes out of the body, centres first. */
 static void find_contacts(struct cloth *cloth, const struct refiner *refiner)
 {
 	const struct garment *garment = cloth->garment;
-	for (int v = 0; v < garment->vertex_count; v++) {
-		cloth->contact[v] = (struct contact){.triangle = -1};
-		if (is_particle(cloth, v))
-			cloth_look(cloth, v);
-	}
 	for (int pass = 0; pass < 2; pass++)
 		for (int v = 0; v < garment->vertex_count; v++)
 			if (refiner->from[v] < 0 && is_particle(cloth, v) &&
@@ -311,14 +316,29 @@ static void find_contacts(struct cloth *cloth, const struct refiner *refiner)
 				leave_body(cloth, refiner, v);
 }
 
+static bool any_asks(const struct cloth *cloth)
+{
+	bool found = false;
+	for (int t = 0; t < cloth->garment->triangle_count && !found; t++)
+		for (int k = 0; k < 3; k++) {
+			const int *v = cloth->garment->triangle[t].v;
+			found |= (cloth->scratch->edge_owner[t] >> k & 1) &&
+				 asks(cloth, v[k], v[(k + 1) % 3], false);
+		}
+	return found;
+}
+
 int cloth_refine(struct cloth *cloth, struct garment *garment, bool coarsen, long *units)
 {
 	struct cloth_refine *refine = cloth->refine;
 	struct refiner *refiner = &refine->refiner;
 	MUST(cloth->garment == garment && cloth->welded);
+	*units += TEST_UNITS * (long)garment->triangle_count;
+	if (garment->base_count == 0 && !any_asks(cloth))
+		return 0;
 	refiner_look(refiner, garment);
 	int changes = choose(cloth, refine, coarsen);
-	*units += TEST_UNITS * (long)garment->base_count;
+	*units += PAIR_UNITS * (long)garment->base_count;
 	if (changes > 0 && garment_refine(refiner, garment, refine->depth)) {
 		carry_all(cloth, refine);
 		place_vertices(cloth, refiner);

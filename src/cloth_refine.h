@@ -16,7 +16,7 @@ bool edge_sinks(struct v3 ab_m, struct v3 inward, float distance_m);
 /* One round for a welded cloth, whose garment this is: every triangle whose edges sink is refined
  * by a step, and with `coarsen` those whose edges have come clear are taken back by one. Returns
  * how many triangles of the mesh as it was made change; then the vertices have other numbers, the
- * constraints are new, contacts are looked up afresh and nothing is held. When the garment is full
+ * constraints are new and nothing is held. When the garment is full
  * nothing changes. *units grows by the units spent. */
 int cloth_refine(struct cloth *cloth, struct garment *garment, bool coarsen, long *units);
 
