@@ -197,6 +197,7 @@ static void carry_all(struct cloth *cloth, struct cloth_refine *refine)
 	carry(refine, s->lift_way, sizeof *s->lift_way, count);
 	carry(refine, s->track, sizeof *s->track, count);
 	memset(s->quiet, 0, (size_t)count * sizeof *s->quiet);
+	memset(s->face_quiet, 0, (size_t)cloth->garment->triangle_count * sizeof *s->face_quiet);
 	memset(s->slack_m, 0, (size_t)count * sizeof *s->slack_m);
 	memset(cloth->held, 0, (size_t)count);
 }
