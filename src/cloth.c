@@ -147,7 +147,6 @@ void cloth_reset(struct cloth *cloth, const struct garment *garment, const struc
 	memset(cloth->scratch->lift_way, 0, GARMENT_VERTICES_MAX * sizeof(struct v3));
 	memset(cloth->scratch->slack_m, 0, GARMENT_VERTICES_MAX * sizeof(float));
 	memset(cloth->scratch->quiet, 0, GARMENT_VERTICES_MAX * sizeof(struct quiet));
-	memset(cloth->scratch->face_quiet, 0, GARMENT_TRIANGLES_MAX * sizeof(struct face_quiet));
 	if (!garment)
 		return;
 	for (int v = 0; v < garment->vertex_count; v++)

@@ -93,7 +93,8 @@ void cloth_finish(struct cloth *cloth);
 /* Largest principal stretch of a triangle minus 1, 0 where it is not stretched (0.02: 2 %). */
 float cloth_stretch(const struct cloth *cloth, int triangle);
 
-/* Mean stretch of the placed triangles (0.02: 2 %); cheap, for the visitor's meter. */
+/* Mean stretch of the placed triangles (0.02: 2 %), of a large cloth by some thousands of them;
+ * cheap, for the visitor's meter. */
 float cloth_strain_mean(const struct cloth *cloth);
 
 /* Puts a cloth back into an earlier state (undo): constraints for this garment, welded or not, then

@@ -161,4 +161,5 @@ void cloth_build(struct cloth *cloth)
 	cloth_order(cloth);
 	cloth_build_levels(cloth);
 	cloth_self_build(cloth);
+	memset(cloth->scratch->face_quiet, 0, GARMENT_TRIANGLES_MAX * sizeof(struct face_quiet));
 }
