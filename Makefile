@@ -7,6 +7,7 @@
 # make hash-matrix  the bundled tape's hash over compilers, levels, sanitizers and aarch64
 # make tremor       the bundled tape with 20 trembling hands
 # make matrix       every real garment on every real body, judged and drawn (tests/matrix.sh)
+# make tapes        the hand writes the bundled tapes anew (tests/hand.c)
 # make examples     pictures of the paper's own examples, before and after, under build/examples
 # make format       clang-format everything; format-check only looks
 # make clean        remove build/
@@ -19,8 +20,9 @@ build ?= build
 B := $(build)/$(config)
 FUZZ_SECONDS ?= 10
 
-# The bundled visit; tests/hand.c writes it.
-TAPE := tests/tapes/tshirt.hid
+# The bundled visits; tests/hand.c writes them.
+TAPE  := tests/tapes/tshirt.hid
+TAPES := tshirt sleeves skirt poncho askew
 
 # A folder may include only what stands on its line. This is the layer rule.
 INC_src           := -iquote src
@@ -62,7 +64,10 @@ PURE := $(CORE) $(wildcard drivers/tape*.c) \
 MAIN  := firmware-host/main.c
 LIB   := $(filter-out $(MAIN),$(foreach d,src drivers ui firmware-host,$(call sources,$d)))
 TESTS := $(patsubst %.c,$(B)/%,$(wildcard tests/test_*.c))
-# The whole visit with sanitizers is the hash matrix's part.
+# Whole visits with sanitizers are the hash matrix's part.
+ifeq ($(config),sanitize)
+TESTS := $(filter-out $(B)/tests/test_tapes,$(TESTS))
+endif
 TEST_SCRIPTS := $(filter-out $(if $(filter sanitize,$(config)),tests/test_replay.sh),$(wildcard tests/test_*.sh))
 BENCH := $(patsubst %.c,$(B)/%,$(wildcard tests/bench_*.c))
 FUZZ  := $(patsubst %.c,$(B)/%,$(wildcard tests/fuzz_*.c))
@@ -178,6 +183,9 @@ tremor: $(B)/kitsuke
 matrix: $(B)/kitsuke $(B)/tests/drape $(B)/tests/contact
 	@KITSUKE=$(B)/kitsuke TOOLS=$(B)/tests tests/matrix.sh $(build)/matrix
 
+tapes: $(B)/tests/hand
+	@for visit in $(TAPES); do $< $$visit tests/tapes/$$visit.hid || exit; done
+
 examples: $(B)/kitsuke
 	@KITSUKE=$(B)/kitsuke tests/examples.sh $(build)/examples
 
@@ -194,6 +202,6 @@ clean:
 	rm -rf $(build)
 
 .PHONY: all run check tests programs check-layers check-imports bench bench-peers peers fuzz fuzzers hash-matrix tremor \
-        matrix examples format format-check help clean
+        matrix tapes examples format format-check help clean
 .SECONDARY:
 -include $(patsubst %.c,$(B)/%.d,$(ALL)) $(PEER_OBJECTS:.o=.d)

@@ -2,7 +2,7 @@
 # The bundled tape's state hash, over compilers, levels, sanitizers, a second processor and threads.
 # tests/check-hash.sh BUILD; fails when two differ or one can't be built.
 build=$1
-tape=${TAPE:-$(ls tests/tapes/*.hid | head -n 1)}
+tape=${TAPE:-tests/tapes/tshirt.hid}
 
 # name | compiler | flags | runner | numbers of threads
 variants() {

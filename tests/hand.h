@@ -2,7 +2,8 @@
  * the very program that will play the tape runs beside it, so that the hand sees what it does.
  *
  * The motion: slow starts and ends, slower in bends, tremor of 8 to 11 Hz, pressure that
- * rises and falls within 40 ms, a tilt that drifts; reports every 5 ms as the tablet sends them. */
+ * rises and falls within 40 ms, a tilt that drifts; reports every few ms as the tablet sends them.
+ */
 #ifndef HAND_H
 #define HAND_H
 
@@ -19,6 +20,7 @@ struct hand {
 	struct pen_layout layout;
 	struct frame_reports reports;
 	int64_t now_us;
+	int interval_us; /* between reports */
 	struct v2 at_px; /* where the hand means to be */
 	bool near, touching;
 	int selected;   /* device that the tape's events are for */
@@ -30,8 +32,7 @@ struct hand {
 };
 
 /* Writes the tape's head and starts. The kiosk must have been initialised and have its body. */
-void hand_begin(struct hand *hand, struct kiosk *kiosk, FILE *tape, int width_px, int height_px,
-		uint32_t seed);
+void hand_begin(struct hand *hand, struct kiosk *kiosk, FILE *tape, int interval_us, uint32_t seed);
 void hand_end(struct hand *hand);
 
 /* Does nothing for a while; the pen stays where it is (near) or away. */

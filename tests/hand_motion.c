@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-enum { REPORT_INTERVAL_US = 5000, PEN_DEVICE = 0, BUTTON_DEVICE = 1 };
+enum { PEN_DEVICE = 0, BUTTON_DEVICE = 1 };
 
 /* XP-Pen Deco L (28bd:0935), pen interface: 254 x 152.4 mm, 200 lines a millimetre, 8191 levels. */
 static const uint8_t deco_l_descriptor[] = {
@@ -41,14 +41,15 @@ static void write_device(struct hand *hand, int index, const char *name, int ven
 	pen_describe(&hand->kiosk->pen, index, descriptor, size);
 }
 
-void hand_begin(struct hand *hand, struct kiosk *kiosk, FILE *tape, int width_px, int height_px,
-		uint32_t seed)
+void hand_begin(struct hand *hand, struct kiosk *kiosk, FILE *tape, int interval_us, uint32_t seed)
 {
 	struct pen_layout layout[PEN_REPORTS_MAX];
 	char reason[160];
+	int width_px = kiosk->pen.mapping.width_px, height_px = kiosk->pen.mapping.height_px;
 	memset(hand, 0, sizeof *hand);
 	hand->kiosk = kiosk;
 	hand->tape = tape;
+	hand->interval_us = interval_us;
 	hand->selected = -1;
 	hand->random.state = seed * 2654435761u | 1u;
 	hand->at_px = (struct v2){(float)width_px * 0.6f, (float)height_px * 0.9f};
@@ -119,7 +120,7 @@ static struct v2 tremor_mm(struct hand *hand)
 	static const float rate_hz[4] = {8.3f, 10.1f, 8.9f, 10.7f};
 	float wave[4];
 	for (int i = 0; i < 4; i++) {
-		float dt = (float)REPORT_INTERVAL_US * 1e-6f;
+		float dt = (float)hand->interval_us * 1e-6f;
 		hand->phase[i] += 2.0f * PI_F * rate_hz[i] * dt * (1.0f + 0.3f * noise(hand));
 		if (hand->phase[i] > 2.0f * PI_F)
 			hand->phase[i] -= 2.0f * PI_F;
@@ -143,7 +144,7 @@ static struct v2 place_mm(const struct hand *hand)
 /* One interval of the tablet: time passes, a report is sent when the pen is near. */
 static void tick(struct hand *hand)
 {
-	hand->now_us += REPORT_INTERVAL_US;
+	hand->now_us += hand->interval_us;
 	run_frames(hand);
 	float goal = hand->touching ? 0.45f + 0.08f * hand->drift : 0.0f;
 	hand->pressure += float_clamp(goal - hand->pressure, -0.12f, 0.08f);
@@ -169,7 +170,7 @@ static void tick(struct hand *hand)
 
 void hand_wait(struct hand *hand, float seconds)
 {
-	for (int i = 0; i < (int)(seconds * 1e6f) / REPORT_INTERVAL_US; i++)
+	for (int i = 0; i < (int)(seconds * 1e6f) / hand->interval_us; i++)
 		tick(hand);
 }
 
@@ -180,7 +181,7 @@ void hand_leave(struct hand *hand)
 	hand->near = false;
 	uint8_t report[REPORT_BYTES_MAX] = {0};
 	report[0] = (uint8_t)hand->layout.report_id;
-	hand->now_us += REPORT_INTERVAL_US;
+	hand->now_us += hand->interval_us;
 	run_frames(hand);
 	send(hand, PEN_DEVICE, report, hand->layout.report_bits / 8);
 }
@@ -216,7 +217,7 @@ void hand_follow(struct hand *hand, const struct v2 *path_px, int count, float s
 		along[i] = along[i - 1] + v2_distance(path_px[i - 1], path_px[i]);
 	float length = along[count - 1], s = 0.0f;
 	for (int at = 1; s < length;) {
-		float step = speed * (float)REPORT_INTERVAL_US * 1e-6f;
+		float step = speed * (float)hand->interval_us * 1e-6f;
 		float ends = float_min(s, length - s);
 		s += step * float_min(pace(ends), pace(bend_distance(path_px, along, count, s)));
 		s = float_min(s, length);
