@@ -128,14 +128,14 @@ struct cloth_settings cloth_settings_relax(void)
 	return settings;
 }
 
-void cloth_reset(struct cloth *cloth, const struct garment *garment, const struct body *body)
+/* Nothing placed, not welded. */
+static void clear(struct cloth *cloth, const struct garment *garment, const struct body *body)
 {
 	cloth->garment = garment;
 	cloth->body = body;
-	cloth->welded = false;
+	cloth->welded = cloth->apart = false;
 	cloth->worn = false;
 	cloth->sweep = 0;
-	cloth->flat_count = 0;
 	cloth->settings = cloth_settings_worn();
 	memset(cloth->placed, 0, GARMENT_VERTICES_MAX);
 	memset(cloth->held, 0, GARMENT_VERTICES_MAX);
@@ -147,16 +147,27 @@ void cloth_reset(struct cloth *cloth, const struct garment *garment, const struc
 	memset(cloth->scratch->lift_way, 0, GARMENT_VERTICES_MAX * sizeof(struct v3));
 	memset(cloth->scratch->slack_m, 0, GARMENT_VERTICES_MAX * sizeof(float));
 	memset(cloth->scratch->quiet, 0, GARMENT_VERTICES_MAX * sizeof(struct quiet));
-	if (!garment)
-		return;
-	for (int v = 0; v < garment->vertex_count; v++)
+	for (int v = 0; garment && v < garment->vertex_count; v++)
 		cloth->contact[v] = (struct contact){.triangle = -1};
-	cloth_build(cloth);
+}
+
+void cloth_start(struct cloth *cloth, const struct garment *garment, const struct body *body)
+{
+	clear(cloth, garment, body);
+	if (garment)
+		cloth_build_begin(cloth);
+}
+
+void cloth_reset(struct cloth *cloth, const struct garment *garment, const struct body *body)
+{
+	clear(cloth, garment, body);
+	if (garment)
+		cloth_build(cloth);
 }
 
 void cloth_finish(struct cloth *cloth)
 {
-	for (int v = 0; cloth->welded && v < cloth->garment->vertex_count; v++) {
+	for (int v = 0; cloth->welded && !cloth->apart && v < cloth->garment->vertex_count; v++) {
 		int particle = cloth->particle[v];
 		cloth->position_m[v] = cloth->position_m[particle];
 		cloth->previous_m[v] = cloth->previous_m[particle];
@@ -166,7 +177,7 @@ void cloth_finish(struct cloth *cloth)
 }
 
 /* Sums in vertex order, so that the mean has the same bits everywhere. */
-void cloth_weld(struct cloth *cloth)
+void cloth_join(struct cloth *cloth)
 {
 	const struct garment *garment = cloth->garment;
 	struct v3 *sum = cloth->scratch->smooth_m;
@@ -187,22 +198,33 @@ void cloth_weld(struct cloth *cloth)
 		cloth->placed[v] = count[particle] > 0;
 		cloth->previous_m[v] = cloth->position_m[v];
 	}
+	cloth->apart = false;
+	cloth_finish(cloth);
+}
+
+void cloth_sew(struct cloth *cloth)
+{
+	cloth->welded = cloth->apart = true;
+	cloth_build_begin(cloth);
+}
+
+void cloth_weld(struct cloth *cloth)
+{
 	cloth->welded = true;
 	cloth_build(cloth);
-	cloth_finish(cloth);
+	cloth_join(cloth);
 }
 
 void cloth_restore(struct cloth *cloth, const struct garment *garment, const struct body *body,
 		   const struct v3 *position_m, const uint8_t *placed, bool welded, bool worn)
 {
-	cloth_reset(cloth, garment, body);
+	clear(cloth, garment, body);
 	memcpy(cloth->position_m, position_m, (size_t)garment->vertex_count * sizeof *position_m);
 	memcpy(cloth->previous_m, position_m, (size_t)garment->vertex_count * sizeof *position_m);
 	memcpy(cloth->placed, placed, (size_t)garment->vertex_count);
 	cloth->worn = worn;
 	cloth->welded = welded;
-	if (welded)
-		cloth_build(cloth);
+	cloth_build(cloth);
 	for (int v = 0; v < garment->vertex_count; v++)
 		if (is_particle(cloth, v))
 			cloth_look(cloth, v);
@@ -327,6 +349,7 @@ static void bound_steps(void *context, int part)
 static long sweep(struct cloth *cloth)
 {
 	long units = cloth->garment->vertex_count;
+	MUST(cloth->built);
 	cloth_take(cloth);
 	for_all_slots(cloth, predict);
 	units += close_seams(cloth);

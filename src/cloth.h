@@ -49,7 +49,10 @@ struct cloth {
 	struct v3 *goal_m;
 	uint8_t *creased; /* per vertex: lies in a fold that is wanted */
 	bool welded;
-	bool worn;                        /* a wrap has finished: there is a garment to drag */
+	bool apart; /* ... but the sides of the seams have not been joined yet */
+	bool built; /* the tables below are this garment's, welded or not; else only cloth_build_on
+		       may be called */
+	bool worn;  /* a wrap has finished: there is a garment to drag */
 	unsigned piece_parts[PIECES_MAX]; /* bit set of enum body_part; 0: all */
 	bool piece_drawn[PIECES_MAX];     /* attract_m works on this piece */
 	int *particle;                    /* per vertex: itself, or weld[] once welded */
@@ -76,6 +79,15 @@ void cloth_reset(struct cloth *cloth, const struct garment *garment, const struc
 
 /* Joins every seam pair at the mean of its sides and rebuilds the constraints. */
 void cloth_weld(struct cloth *cloth);
+
+/* The same two over several frames. cloth_build_on builds the constraints in steps, up to `quota`
+ * units (or one step), and returns the units spent; `built` says when all is done. The mesh that
+ * was built last needs no step. What is sewn is to be joined then: until it is, its sides stay
+ * where they are. */
+void cloth_start(struct cloth *cloth, const struct garment *garment, const struct body *body);
+void cloth_sew(struct cloth *cloth);
+void cloth_join(struct cloth *cloth);
+long cloth_build_on(struct cloth *cloth, long quota);
 
 /* One sweep. Returns the units spent (constraint projections and triangles walked). */
 long cloth_sweep(struct cloth *cloth);

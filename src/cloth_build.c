@@ -2,6 +2,8 @@
 #include "cloth_private.h"
 #include "cloth_self.h"
 
+enum { SELF_UNITS = 20 }; /* a vertex's share of the tables of cloth_self*.c */
+
 static void build_rest(struct cloth *cloth)
 {
 	const struct garment *garment = cloth->garment;
@@ -139,27 +141,103 @@ static void build_stars(struct cloth *cloth)
 		}
 }
 
-/* Nothing is known of the new cloth's folds. */
-static void forget_folds(struct cloth *cloth)
+/* Nothing is known of the new cloth's folds, nor which of its faces rest. */
+static void forget_faces(struct cloth *cloth)
 {
 	struct cloth_scratch *s = cloth->scratch;
 	memset(s->facing, 0, (size_t)cloth->garment->triangle_count);
 	memset(s->turned, 0, (size_t)cloth->garment->triangle_count);
 	memset(s->swung_in, 0, (size_t)cloth->garment->vertex_count * sizeof *s->swung_in);
+	memset(s->face_quiet, 0, (size_t)cloth->garment->triangle_count * sizeof *s->face_quiet);
 	s->open_count = s->facing_in = s->swing = 0;
+}
+
+/* ---- is it the same mesh? ---- */
+
+static uint64_t mix(uint64_t hash, const void *data, size_t size)
+{
+	const unsigned char *bytes = data;
+	for (; size >= sizeof hash; size -= sizeof hash, bytes += sizeof hash) {
+		uint64_t word;
+		memcpy(&word, bytes, sizeof word);
+		hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
+		hash ^= hash >> 32;
+	}
+	for (; size > 0; size--, bytes++)
+		hash = (hash ^ *bytes) * 0x9e3779b97f4a7c15u;
+	return hash;
+}
+
+#define MIX(hash, array, count) mix((hash), (array), (size_t)(count) * sizeof *(array))
+
+/* Of all that the tables hang on; never 0. */
+static uint64_t mesh_id(const struct cloth *cloth)
+{
+	const struct garment *garment = cloth->garment;
+	int counts[3] = {garment->vertex_count, garment->triangle_count, cloth->welded};
+	uint64_t hash = MIX(1, counts, 3);
+	hash = MIX(hash, &garment->edge_m, 1);
+	hash = MIX(hash, garment->rest_m, garment->vertex_count);
+	hash = MIX(hash, garment->weld, garment->vertex_count);
+	hash = MIX(hash, garment->triangle, garment->triangle_count);
+	return hash | 1;
+}
+
+/* ---- the steps ---- */
+
+static void build_edges(struct cloth *cloth)
+{
+	list_edges(cloth);
+	pair_edges(cloth);
+}
+
+/* Each is done at once; its price is per vertex. */
+static const struct {
+	void (*build)(struct cloth *cloth);
+	int units;
+} steps[] = {
+	{build_rest, 10},  {build_edges, 40}, {build_stars, 15},
+	{march_build, 15}, {cloth_order, 50}, {cloth_begin_levels, 5},
+};
+
+void cloth_build_begin(struct cloth *cloth)
+{
+	struct build *build = &cloth->scratch->build;
+	uint64_t id = mesh_id(cloth);
+	cloth->scratch->stale = true;
+	forget_faces(cloth);
+	cloth->built = build->step > COUNT_OF(steps) && build->mesh_id == id;
+	if (cloth->built) {
+		cloth_self_build(cloth);
+		return;
+	}
+	build->mesh_id = id;
+	build->step = 0;
+	take_particles(cloth);
+}
+
+long cloth_build_on(struct cloth *cloth, long quota)
+{
+	struct build *build = &cloth->scratch->build;
+	long units = 0;
+	while (build->step < COUNT_OF(steps)) {
+		if (units >= quota)
+			return units;
+		steps[build->step].build(cloth);
+		units += (long)steps[build->step].units * cloth->garment->vertex_count;
+		build->step++;
+	}
+	if (units >= quota || !cloth_build_levels(cloth, quota, &units))
+		return units;
+	build->step++;
+	cloth->built = true;
+	cloth_self_build(cloth);
+	return units + SELF_UNITS * (long)cloth->garment->vertex_count;
 }
 
 void cloth_build(struct cloth *cloth)
 {
-	build_rest(cloth);
-	forget_folds(cloth);
-	take_particles(cloth);
-	list_edges(cloth);
-	pair_edges(cloth);
-	build_stars(cloth);
-	march_build(cloth);
-	cloth_order(cloth);
-	cloth_build_levels(cloth);
-	cloth_self_build(cloth);
-	memset(cloth->scratch->face_quiet, 0, GARMENT_TRIANGLES_MAX * sizeof(struct face_quiet));
+	cloth_build_begin(cloth);
+	while (!cloth->built)
+		cloth_build_on(cloth, INT32_MAX);
 }

@@ -5,6 +5,8 @@
  * is left alone. */
 #include "cloth_private.h"
 
+enum { MARCH_UNITS = 30 }; /* a particle passed on the way from a node */
+
 /* Spacing of the nodes of each level, in edges of the mesh. */
 static const float spacing_edges[LEVELS] = {3.0f, 9.0f};
 static const float spread_share = 1.6f; /* a node moves cloth within so many spacings */
@@ -36,16 +38,16 @@ static void note_link(struct level *level, int a, int b, float length_m)
 }
 
 /* Marches from a new node: covers the members near it, and links it with earlier nodes. `member` is
- * a particle's place among the level's members, -1: none. */
-static void add_node(struct cloth *cloth, struct level *level, int from, const int *member)
+ * a particle's place among the level's members, -1: none. Returns how many particles it passed. */
+static int add_node(struct cloth *cloth, struct level *level, int from, const int *member)
 {
 	struct cloth_scratch *s = cloth->scratch;
 	struct march march;
 	float way_m;
-	int node = level->node_count++;
+	int passed = 0, node = level->node_count++;
 	level->node[node] = member[from];
 	march_begin(&march, cloth, from, link_share * level->spacing_m);
-	for (int v; (v = march_next(&march, &way_m)) >= 0;) {
+	for (int v; (v = march_next(&march, &way_m)) >= 0; passed++) {
 		if (member[v] < 0)
 			continue;
 		if (way_m < level->spacing_m)
@@ -56,6 +58,7 @@ static void add_node(struct cloth *cloth, struct level *level, int from, const i
 			note_link(level, s->node_at[v], node, way_m);
 	}
 	s->node_at[from] = node;
+	return passed;
 }
 
 /* Ways become weights (1 - way / reach)^2, which fade to nothing where a node stops to matter. */
@@ -75,11 +78,12 @@ static void weigh(struct level *level)
 	}
 }
 
-static void build_level(struct cloth *cloth, struct level *level, const int *particle,
-			int member_count, const int *member)
+/* s->member_at says of every particle which member of the level it is, s->member the reverse. */
+static void begin_level(struct cloth *cloth, struct level *level, float spacing, int member_count)
 {
 	struct cloth_scratch *s = cloth->scratch;
 	int vertices = cloth->garment->vertex_count;
+	level->spacing_m = spacing * cloth->garment->edge_m;
 	level->node_count = level->link_count = 0;
 	level->member_count = member_count;
 	memset(s->covered, 0, (size_t)vertices);
@@ -88,33 +92,54 @@ static void build_level(struct cloth *cloth, struct level *level, const int *par
 	for (int m = 0; m < member_count; m++)
 		for (int k = 0; k < SPREAD; k++)
 			level->spread[m] = (struct spread){{0}, {1e9f, 1e9f, 1e9f, 1e9f}};
-	for (int m = 0; m < member_count; m++)
-		if (!s->covered[particle[m]] && level->node_count < LEVEL_NODES_MAX)
-			add_node(cloth, level, particle[m], member);
-	weigh(level);
 }
 
-void cloth_build_levels(struct cloth *cloth)
+/* The nodes are the next level's members. */
+static void end_level(struct cloth *cloth, struct level *level)
 {
 	struct cloth_scratch *s = cloth->scratch;
-	int vertices = cloth->garment->vertex_count, count = s->ranked_count;
-	memcpy(s->member, s->ranked, (size_t)count * sizeof *s->member);
-	memset(s->way_of, 0, (size_t)vertices * sizeof *s->way_of);
-	s->way_now = 0;
-	for (int v = 0; v < vertices; v++)
-		s->member_at[v] = s->rank[v];
-	for (int l = 0; l < LEVELS; l++) {
-		struct level *level = &s->level[l];
-		level->spacing_m = spacing_edges[l] * cloth->garment->edge_m;
-		build_level(cloth, level, s->member, count, s->member_at);
-		/* the nodes are the next level's members */
-		for (int v = 0; v < vertices; v++)
-			s->member_at[v] = s->node_at[v];
-		count = level->node_count;
-		for (int v = 0; v < vertices; v++)
-			if (s->node_at[v] >= 0)
-				s->member[s->node_at[v]] = v;
+	weigh(level);
+	for (int v = 0; v < cloth->garment->vertex_count; v++) {
+		s->member_at[v] = s->node_at[v];
+		if (s->node_at[v] >= 0)
+			s->member[s->node_at[v]] = v;
 	}
+}
+
+void cloth_begin_levels(struct cloth *cloth)
+{
+	struct cloth_scratch *s = cloth->scratch;
+	size_t vertices = (size_t)cloth->garment->vertex_count;
+	memcpy(s->member, s->ranked, (size_t)s->ranked_count * sizeof *s->member);
+	memcpy(s->member_at, s->rank, vertices * sizeof *s->member_at);
+	memset(s->way_of, 0, vertices * sizeof *s->way_of);
+	s->way_now = 0;
+	s->build.level = s->build.member = 0;
+	begin_level(cloth, &s->level[0], spacing_edges[0], s->ranked_count);
+}
+
+bool cloth_build_levels(struct cloth *cloth, long quota, long *units)
+{
+	struct cloth_scratch *s = cloth->scratch;
+	struct build *build = &s->build;
+	while (build->level < LEVELS) {
+		struct level *level = &s->level[build->level];
+		for (; build->member < level->member_count; build->member++) {
+			int particle = s->member[build->member];
+			if (s->covered[particle] || level->node_count == LEVEL_NODES_MAX)
+				continue;
+			if (*units >= quota)
+				return false;
+			*units += MARCH_UNITS *
+				  (long)add_node(cloth, level, particle, s->member_at);
+		}
+		end_level(cloth, level);
+		build->member = 0;
+		if (++build->level < LEVELS)
+			begin_level(cloth, level + 1, spacing_edges[build->level],
+				    level->node_count);
+	}
+	return true;
 }
 
 /* ---- whenever cloth is placed ---- */

@@ -94,7 +94,15 @@ struct order {
 	int first[GROUPS_MAX * COLOURS + 1]; /* in item, of each group's colours */
 };
 
+/* How far the tables of a mesh have been built. */
+struct build {
+	uint64_t mesh_id; /* whose they are; 0: nobody's yet */
+	int step;
+	int level, member; /* at which the coarse levels are */
+};
+
 struct cloth_scratch {
+	struct build build;
 	struct rest *rest; /* per triangle */
 
 	/* the order of work (cloth_order.c) */
@@ -183,11 +191,13 @@ static inline float layer_lift(const struct cloth *cloth, int v)
 	return 0.0025f * (float)int_min(cloth->garment->layer[cloth->garment->piece[v]], 4);
 }
 
-/* Rebuilds what hangs on which vertices are one: triangles, flatness, neighbours, order, levels
- * (cloth_build.c calls the others). */
-void cloth_build(struct cloth *cloth);
+/* What hangs on which vertices are one: triangles, flatness, neighbours, order, levels
+ * (cloth_build.c calls the others). Begun, it is built in steps by cloth_build_on. */
+void cloth_build_begin(struct cloth *cloth);
+void cloth_build(struct cloth *cloth); /* from beginning to end */
 void cloth_order(struct cloth *cloth);
-void cloth_build_levels(struct cloth *cloth);
+void cloth_begin_levels(struct cloth *cloth);
+bool cloth_build_levels(struct cloth *cloth, long quota, long *units); /* true: all of them */
 
 /* Ways through the cloth from a particle to others, nearest first, up to limit_m (cloth_march.c).
  */

@@ -229,7 +229,7 @@ static void end_close(struct wrap *wrap)
 		return;
 	}
 	if (3 * wide <= count) {
-		cloth_weld(cloth);
+		cloth_sew(cloth);
 		enter(wrap, WRAP_WELD, closing());
 		return;
 	}
@@ -267,6 +267,8 @@ static long close_up(struct wrap *wrap)
 /* Some sweeps as one cloth. */
 static long weld(struct wrap *wrap)
 {
+	if (wrap->progress == 0)
+		cloth_join(wrap->cloth);
 	if (wrap->progress++ < WELD_SWEEPS)
 		return cloth_sweep(wrap->cloth);
 	enter(wrap, WRAP_UNFOLD, unfolding());
@@ -340,7 +342,9 @@ long wrap_advance(struct wrap *wrap, long quota)
 	long units = 0;
 	wrap->frames++;
 	do {
-		if (wrap->stage == WRAP_GROW)
+		if (!wrap->cloth->built)
+			units += cloth_build_on(wrap->cloth, quota - units);
+		else if (wrap->stage == WRAP_GROW)
 			units += grow(wrap);
 		else if (wrap->stage == WRAP_CLOSE)
 			units += close_up(wrap);

@@ -14,12 +14,11 @@ enum {
 	UNTANGLES_MAX = 2,
 	REFINES_MAX = 2,
 	PUSH_SLICES = 16,
-	STILL_SLICES = 8,  /* frames a round of looking for folds or of cleaning */
-	CLEAN_ROUNDS = 6,  /* at most; two when nothing is found */
-	BUILD_UNITS = 200, /* a vertex's share of the cloth's tables does */
-	CUT_UNITS = 7,     /* a step of the mesher costs as much as so many units */
-	PAUSE_FRAMES = 6,  /* a pen that rests so long lets the cloth relax under it */
-	EASE_FRAMES = 90,  /* and so long it relaxes after the last touch */
+	STILL_SLICES = 8, /* frames a round of looking for folds or of cleaning */
+	CLEAN_ROUNDS = 6, /* at most; two when nothing is found */
+	CUT_UNITS = 7,    /* a step of the mesher costs as much as so many units */
+	PAUSE_FRAMES = 6, /* a pen that rests so long lets the cloth relax under it */
+	EASE_FRAMES = 90, /* and so long it relaxes after the last touch */
 };
 
 static const float calm_m = 0.00002f; /* particles moved less than this in a frame, in the mean */
@@ -35,26 +34,32 @@ void session_wake(struct session *session)
 	session->asleep = false;
 }
 
-/* The cloth's own tables are built in a frame after the last of the mesh. */
+/* The cloth's own tables are built in the frames after the last of the mesh. */
 static long advance_mesh(struct session *session)
 {
 	bool done = false;
+	struct cloth *cloth = &session->cloth;
 	long steps = int_max(1, (int)(session->budget_units / CUT_UNITS));
 	long units = CUT_UNITS * garment_advance(session->mesher, steps, &done);
 	if (!done || units > 0)
 		return units;
-	cloth_reset(&session->cloth, &session->garment, &session->body);
+	if (!cloth->garment)
+		cloth_start(cloth, &session->garment, &session->body);
+	if (!cloth->built)
+		units = cloth_build_on(cloth, session->budget_units);
+	if (!cloth->built)
+		return units;
 	session->job = session->drapes ? JOB_NONE : JOB_WRAP;
-	if (!session->drapes &&
-	    !wrap_start(&session->wrap, &session->cloth, &session->document.marks))
+	if (!session->drapes && !wrap_start(&session->wrap, cloth, &session->document.marks))
 		session->job = JOB_NONE;
-	return BUILD_UNITS * (long)session->garment.vertex_count;
+	return units + 1;
 }
 
 static long advance_wrap(struct session *session)
 {
 	/* a share of the budget: the visitor is to see the garment grow */
-	long units = wrap_advance(&session->wrap, session->budget_units / WRAP_SHARE);
+	long share = session->cloth.built ? WRAP_SHARE : 1;
+	long units = wrap_advance(&session->wrap, session->budget_units / share);
 	if (session->wrap.stage == WRAP_DONE) {
 		session_wake(session);
 		session->job = JOB_NONE;
