@@ -3,8 +3,6 @@
 #include "cloth_self.h"
 #include "fabric.h"
 
-enum { FACE_SLICES = 10 }; /* a frame's sweeps: all faces once a frame */
-
 static const float far_m = 0.035f; /* a body farther than this pulls drawn pieces */
 
 static void init_order(struct cloth_scratch *s, struct arena *arena)

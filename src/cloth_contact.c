@@ -288,9 +288,8 @@ static float face_height(const struct cloth *cloth, const int v[3])
 	return least;
 }
 
-static bool face_rests(const struct cloth *cloth, int t)
+static bool face_rests(const struct cloth *cloth, int t, const struct face_quiet *quiet)
 {
-	const struct face_quiet *quiet = &cloth->scratch->face_quiet[t];
 	const int *v = cloth->triangle[t].v;
 	float moved2 = 0.0f;
 	for (int k = 0; k < 3; k++) {
@@ -306,11 +305,12 @@ static bool face_rests(const struct cloth *cloth, int t)
 	return true;
 }
 
-static void note_face(struct cloth *cloth, int t, float clear_m, float still_m)
+static void note_face(const struct cloth *cloth, int t, struct face_quiet *quiet, float clear_m,
+		      float still_m)
 {
 	const int *v = cloth->triangle[t].v;
 	const struct v3 *x = cloth->position_m;
-	cloth->scratch->face_quiet[t] = (struct face_quiet){
+	*quiet = (struct face_quiet){
 		{x[v[0]], x[v[1]], x[v[2]]}, float_max(clear_m, 0.0f), float_max(still_m, 0.0f)};
 }
 
@@ -347,19 +347,19 @@ static long leave_bone(struct cloth *cloth, int a, int b)
 
 /* Three points of every edge of the triangle, and the centre. Edges of two triangles are looked at
  * in the first. */
-static long look_at_face(struct cloth *cloth, int t)
+static long look_at_face(struct cloth *cloth, int t, struct face_quiet *quiet)
 {
 	static const float third[3] = {1.0f / 3.0f, 1.0f / 3.0f, 1.0f / 3.0f};
 	const int *v = cloth->triangle[t].v;
 	uint8_t owner = cloth->scratch->edge_owner[t];
-	if (!triangle_placed(cloth, t) || face_rests(cloth, t))
+	if (!triangle_placed(cloth, t) || face_rests(cloth, t, quiet))
 		return 0;
 	for (int k = 0; k < 3; k++)
 		if (cloth->contact[v[k]].triangle < 0)
 			return 0;
 	float spare_m = 1.0f, height_m = face_height(cloth, v);
 	if (height_m >= 0.0f) {
-		note_face(cloth, t, height_m, 0.0f);
+		note_face(cloth, t, quiet, height_m, 0.0f);
 		return 0;
 	}
 	long units = lift_point(cloth, v, third, &spare_m);
@@ -373,7 +373,7 @@ static long look_at_face(struct cloth *cloth, int t)
 			weight[(k + 1) % 3] = 0.25f * (float)i;
 			units += lift_point(cloth, v, weight, &spare_m);
 		}
-	note_face(cloth, t, spare_m - lift_slack_m, still_share * spare_m);
+	note_face(cloth, t, quiet, spare_m - lift_slack_m, still_share * spare_m);
 	return units;
 }
 
@@ -383,15 +383,22 @@ struct face_pass {
 	long units[STRIPS_MAX]; /* per part */
 };
 
-/* Faces lift their corners: they are shared out as the triangles' shapes are (cloth_order.c). */
+/* Faces of a frame's slice lie together in memory, in which the quiet of all is the most.
+ *
+ * Faces lift their corners: they are shared out as the triangles' shapes are (cloth_order.c). */
 static void face_group(void *context, int part)
 {
 	struct face_pass *pass = context;
 	const struct cloth_scratch *s = pass->cloth->scratch;
 	const int *first = &s->face_first[pass->first_group + part];
 	long units = 0;
-	for (int i = first[0] + pass->slice; i < first[1]; i += pass->slices)
-		units += look_at_face(pass->cloth, s->face[i]);
+	int count = first[1] - first[0];
+	for (int i = pass->slice; i < count; i += pass->slices) {
+		int at = i % FACE_SLICES * (count / FACE_SLICES) + i / FACE_SLICES +
+			 int_min(i % FACE_SLICES, count % FACE_SLICES);
+		units += look_at_face(pass->cloth, s->face[first[0] + i],
+				      &s->face_quiet[first[0] + at]);
+	}
 	pass->units[part] = units;
 }
 

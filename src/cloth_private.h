@@ -12,6 +12,7 @@ enum {
 	SINGLES = 64, /* constraints of the last colour that are still worked */
 	SHAPE_BATCHES_MAX = GARMENT_TRIANGLES_MAX / BATCH + GROUPS_MAX * COLOURS + SINGLES,
 	SLOT_FIRST = STRIPS_MAX * PADS, /* every strip has its own pads */
+	FACE_SLICES = 10,               /* a frame's sweeps: all faces once a frame */
 	LEVELS = 2,
 	LEVEL_PASSES = 2,
 	LEVEL_NODES_MAX = GARMENT_VERTICES_MAX / 8,
