@@ -13,9 +13,10 @@ enum {
 /* What is refined stays so while its edges would sink with half the distance: else cloth at the
  * limit would change at every look. */
 static const float keep_share = 0.5f;
-static const float drawn_share = 1.5f; /* longer edges were drawn through by something else */
-static const float bulge_max = 0.2f;   /* edges: crumpled cloth is no surface to be continued */
-static const float out_max_m = 0.05f;  /* the thickest limb that a new vertex is taken out of */
+static const float drawn_share = 1.1f; /* longer edges were drawn through by something else */
+static const float taut_stretch = 0.25f;
+static const float bulge_max = 0.2f;  /* edges: crumpled cloth is no surface to be continued */
+static const float out_max_m = 0.05f; /* the thickest limb that a new vertex is taken out of */
 
 /* The largest entry per vertex that is carried over. */
 static const size_t entry_bytes = sizeof(struct contact) > sizeof(struct body_track)
@@ -25,7 +26,7 @@ static const size_t entry_bytes = sizeof(struct contact) > sizeof(struct body_tr
 struct cloth_refine {
 	struct refiner refiner;
 	uint8_t *depth;   /* wanted, per base triangle */
-	uint8_t *crossed; /* per particle: cloth passes through cloth here */
+	uint8_t *trouble; /* per particle: finer cloth would not help here */
 	void *before;     /* per vertex: the array that is carried over */
 };
 
@@ -34,7 +35,7 @@ struct cloth_refine *cloth_refine_init(struct arena *arena)
 	struct cloth_refine *refine = ARENA_ARRAY(arena, struct cloth_refine, 1);
 	refiner_init(&refine->refiner, arena);
 	refine->depth = ARENA_ARRAY(arena, uint8_t, GARMENT_TRIANGLES_MAX);
-	refine->crossed = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
+	refine->trouble = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
 	refine->before = arena_take(arena, GARMENT_VERTICES_MAX, entry_bytes);
 	return refine;
 }
@@ -136,15 +137,26 @@ static int wanted(const struct cloth *cloth, const struct refiner *refiner, int 
 	return want;
 }
 
-/* A tangle is no thin body: finer, there would only be more to untangle. */
-static bool is_tangled(const struct cloth *cloth, const struct cloth_refine *refine, int t)
+/* Cloth that passes through cloth, or is drawn taut over what it has caught on, wants something
+ * else than to be finer: there would only be more of it to untangle. */
+static void find_trouble(const struct cloth *cloth, uint8_t *trouble)
 {
-	bool tangled = false;
+	memset(trouble, 0, (size_t)cloth->garment->vertex_count);
+	cloth_flag_crossed(cloth, trouble);
+	for (int t = 0; t < cloth->garment->triangle_count; t++)
+		for (int k = 0; k < 3; k++)
+			if (triangle_placed(cloth, t) && cloth_stretch(cloth, t) > taut_stretch)
+				trouble[cloth->triangle[t].v[k]] = 1;
+}
+
+static bool in_trouble(const struct cloth *cloth, const struct cloth_refine *refine, int t)
+{
+	bool found = false;
 	for (int k = 0; k < 3; k++) {
 		int v = refine->refiner.now[cloth->garment->base[t].v[k]];
-		tangled |= refine->crossed[cloth->particle[v]];
+		found |= refine->trouble[cloth->particle[v]];
 	}
-	return tangled;
+	return found;
 }
 
 /* By at most a step from what is. Returns how many triangles change. */
@@ -152,11 +164,10 @@ static int choose(const struct cloth *cloth, struct cloth_refine *refine, bool c
 {
 	const struct garment *garment = cloth->garment;
 	int changes = 0;
-	memset(refine->crossed, 0, (size_t)garment->vertex_count);
-	cloth_flag_crossed(cloth, refine->crossed);
+	find_trouble(cloth, refine->trouble);
 	for (int t = 0; t < garment->base_count; t++) {
-		int depth = garment->depth[t], want = depth;
-		if (!is_tangled(cloth, refine, t))
+		int depth = garment->depth[t], want = 0;
+		if (!in_trouble(cloth, refine, t))
 			want = wanted(cloth, &refine->refiner, t);
 		refine->depth[t] = (uint8_t)int_max(want, coarsen ? depth - 1 : depth);
 	}
