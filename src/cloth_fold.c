@@ -254,6 +254,7 @@ int cloth_clean(struct cloth *cloth, int slice, int slices, long *units)
 	*units += cloth_contact_faces(cloth, slice, slices);
 	int found = cloth_push_out(cloth, slice, slices, units);
 	*units += cloth_contact(cloth);
+	*units += cloth_self_order(cloth);
 	*units += PASS_UNITS * (long)count;
 	cloth_finish(cloth);
 	return found;

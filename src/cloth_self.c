@@ -119,20 +119,34 @@ static int remembered(const struct cloth *cloth, int t, const int *pair, int cou
 	return side;
 }
 
-/* The outer of two garments belongs in front of the inner one, wherever it lies now. Sheets that do
- * not face alike (a fold, a part turned over, a sleeve beside a trunk) may lie otherwise. */
+/* The outer of two garments belongs in front of the inner one, wherever it lies now. */
 int self_layer_side(const struct cloth *cloth, int s, int t)
 {
 	const struct garment *garment = cloth->garment;
 	int own = garment->layer[garment->triangle_piece[s]];
 	int other = garment->layer[garment->triangle_piece[t]];
-	if (own == other)
-		return 0;
-	struct v3 a = cloth->self->triangle[s].normal, b = cloth->self->triangle[t].normal;
-	float facing = v3_dot(a, b);
-	if (facing <= 0.0f || facing * facing < alike * alike * v3_dot(a, a) * v3_dot(b, b))
+	if (own == other || self_facing(cloth, s, t) <= 0)
 		return 0;
 	return own > other ? 1 : -1;
+}
+
+int self_facing(const struct cloth *cloth, int s, int t)
+{
+	struct v3 a = cloth->self->triangle[s].normal, b = cloth->self->triangle[t].normal;
+	float facing = v3_dot(a, b);
+	if (facing * facing < alike * alike * v3_dot(a, a) * v3_dot(b, b))
+		return 0;
+	return facing > 0.0f ? 1 : -1;
+}
+
+/* The same for a vertex; 0 also at a crease, where its triangles do not agree. */
+static int vertex_side(const struct cloth *cloth, int v, int t)
+{
+	int side = self_layer_side(cloth, cloth->self->owner[v], t);
+	for (int i = cloth->star_first[v]; side && i < cloth->star_first[v + 1]; i++)
+		if (self_facing(cloth, cloth->star[i] >> 2, t) < 0)
+			return 0;
+	return side;
 }
 
 /* On which side of a triangle a vertex belongs: where nothing is known it is the side on which it
@@ -140,9 +154,6 @@ int self_layer_side(const struct cloth *cloth, int s, int t)
 static int side_of(const struct cloth *cloth, int v, int t, const struct over *over,
 		   const int *before, int before_count)
 {
-	int order = self_layer_side(cloth, cloth->self->owner[v], t);
-	if (order)
-		return SELF_DECIDED | (order > 0 ? SELF_FRONT : 0);
 	int side = remembered(cloth, t, before, before_count);
 	if (side)
 		return side;
@@ -204,7 +215,11 @@ static void renew_pairs(struct cloth *cloth, int v, const int *near, int near_co
 		if (stamped(cloth, v, t) || !self_look_over(cloth, p, t, &over) ||
 		    float_abs(over.height) > reach || !has_side(cloth, p, t, &over))
 			continue;
-		int side = side_of(cloth, v, t, &over, before, before_count);
+		int order = self->layered ? vertex_side(cloth, v, t) : 0;
+		if (!order && float_abs(over.height) > cloth->settings.thickness_m + margin_m)
+			continue;
+		int side = order ? SELF_DECIDED | (order > 0 ? SELF_FRONT : 0)
+				 : side_of(cloth, v, t, &over, before, before_count);
 		count = take_nearest(pair, far_m, count, 4 * t + side, float_abs(over.height));
 	}
 	self->pair_count[v] = (uint8_t)count;
@@ -308,6 +323,37 @@ static long keep_all_apart(struct cloth *cloth)
 
 /* ---- the rounds ---- */
 
+static void undecide(struct cloth *cloth, int v, int t)
+{
+	struct cloth_self *self = cloth->self;
+	for (int i = 0; i < self->pair_count[v]; i++) {
+		int *pair = &self->pair[SELF_PAIRS_A_VERTEX * v + i];
+		if (*pair / 4 == t)
+			*pair &= ~SELF_DECIDED;
+	}
+}
+
+/* Where garments cross and their order says nothing, only the curve of crossing knows the way out:
+ * no side is kept against it. */
+static void let_pull(struct cloth *cloth)
+{
+	struct cloth_self *self = cloth->self;
+	for (int i = 0; i < self->crossing_count; i++) {
+		const struct crossing *crossing = &self->crossing[i];
+		int e = crossing->edge, f = self->across[e];
+		const int *v = cloth->triangle[e / 3].v, *w = cloth->triangle[crossing->triangle].v;
+		if (crossing->side)
+			continue;
+		undecide(cloth, v[e % 3], crossing->triangle);
+		undecide(cloth, v[(e % 3 + 1) % 3], crossing->triangle);
+		for (int k = 0; k < 3; k++) {
+			undecide(cloth, w[k], e / 3);
+			if (f >= 0)
+				undecide(cloth, w[k], f / 3);
+		}
+	}
+}
+
 /* After a round: with all crossings known. */
 static void judge(struct cloth *cloth)
 {
@@ -316,6 +362,8 @@ static void judge(struct cloth *cloth)
 		self_judge_zones(cloth);
 	else
 		memset(cloth->self->crossed, 0, GARMENT_VERTICES_MAX);
+	if (cloth->self->layered)
+		let_pull(cloth);
 }
 
 /* Slice `slice` of `slices` of all triangles: their crossings, and the pairs of the vertices that

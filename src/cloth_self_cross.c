@@ -92,6 +92,16 @@ static bool look_lowest(const struct cloth *cloth, int e, int t, int side, struc
 	return true;
 }
 
+/* The side that both triangles of an edge agree about. At a crease they do not: there the sheet
+ * goes round the other one's rim. */
+static int edge_side(const struct cloth *cloth, int e, int t)
+{
+	int f = cloth->self->across[e];
+	if (f >= 0 && self_facing(cloth, f / 3, t) < 0)
+		return 0;
+	return self_layer_side(cloth, e / 3, t);
+}
+
 /* An edge belongs to the lower of its triangles. */
 void self_find_crossings(struct cloth *cloth, int t, const int *near, int near_count)
 {
@@ -109,7 +119,7 @@ void self_find_crossings(struct cloth *cloth, int t, const int *near, int near_c
 				continue;
 			bool through = pierces(cloth->position_m[a], cloth->position_m[b], corner,
 					       &piercing);
-			side = self->layered ? self_layer_side(cloth, t, near[i]) : 0;
+			side = self->layered ? edge_side(cloth, e, near[i]) : 0;
 			if (side && (!look_lowest(cloth, e, near[i], side, &lowest) ||
 				     lowest.height < -lost_m))
 				side = 0;

@@ -94,6 +94,9 @@ static inline int self_pair(const struct cloth_self *self, int v, int i)
 /* False: the triangle has no area. */
 bool self_look_over(const struct cloth *cloth, struct v3 p, int t, struct over *over);
 
+/* 1: two triangles face alike, -1: each other or away from each other, 0: neither. */
+int self_facing(const struct cloth *cloth, int s, int t);
+
 /* On which side of triangle t the order of garments wants a part of triangle s: 1 in front, -1
  * behind; 0: it says nothing. */
 int self_layer_side(const struct cloth *cloth, int s, int t);
