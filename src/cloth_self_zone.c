@@ -92,6 +92,8 @@ static int ballot(const struct cloth *cloth, int v, int t, struct v3 normal, boo
 	return a < b ? 1 : a > b ? -1 : 0;
 }
 
+/* For the side that a pair remembers, for that on which its vertex lies when it knows none: where
+ * sheets are pressed into one another the place says little. */
 static void vote(struct cloth *cloth, int v, int pair)
 {
 	struct cloth_self *self = cloth->self;
@@ -101,13 +103,14 @@ static void vote(struct cloth *cloth, int v, int pair)
 	if (!self_look_over(cloth, cloth->position_m[v], t, &over))
 		return;
 	int front = ballot(cloth, v, t, over.normal, &alike);
-	if ((over.height > 0.0f) == (self->trapped[v] || self->trapped[cloth->triangle[t].v[0]]))
+	bool before = pair & SELF_DECIDED ? (pair & SELF_FRONT) != 0 : over.height > 0.0f;
+	if (before == (self->trapped[v] || self->trapped[cloth->triangle[t].v[0]]))
 		front = -front;
 	self->vote[2 * root + alike] += front;
 	self->voters[2 * root + alike] += front != 0;
 }
 
-/* The pair with the side that its zone has chosen; undecided when it has not. */
+/* The pair with the side that its zone has chosen; as it was when it has not. */
 static int decide(struct cloth *cloth, int v, int pair)
 {
 	struct cloth_self *self = cloth->self;
@@ -120,7 +123,7 @@ static int decide(struct cloth *cloth, int v, int pair)
 		return pair;
 	int front = ballot(cloth, v, t, over.normal, &alike) * self->vote[2 * root + alike];
 	if (CLEAR_MAJORITY * int_max(front, -front) < self->voters[2 * root + alike])
-		front = 0;
+		return pair;
 	return 4 * t + (front > 0 ? SELF_DECIDED + SELF_FRONT : front < 0 ? SELF_DECIDED : 0);
 }
 
