@@ -27,6 +27,12 @@ const char board_text[] =
 	"# Work units that the solver may spend in a frame; auto: the program's own number.\n"
 	"# `kitsuke calibrate FILE` measures it and writes it here.\n"
 	"budget = auto\n"
+	"# Threads that move the cloth, 1 to 8; auto: all processors but one for the picture, at\n"
+	"# most 4. The cloth moves the same with any number; calibrate the budget anew.\n"
+	"threads = auto\n"
+	"# Processors for those beside the frame's own thread, like 5 6 7; any: the system "
+	"chooses.\n"
+	"thread_cpus = any\n"
 	"# The station starts anew after so many seconds without a touch; 0: never.\n"
 	"idle_s = 180\n"
 	"# en or ja.\n"
@@ -144,6 +150,29 @@ static bool value_budget(struct reader *r)
 	return true;
 }
 
+static bool value_threads(struct reader *r)
+{
+	int threads = 0;
+	if (strcmp(r->value, "auto") && !value_int(r, 1, BOARD_THREADS_MAX, &threads))
+		return false;
+	r->board->threads = threads;
+	return true;
+}
+
+static bool value_cpus(struct reader *r)
+{
+	const char *at = r->value;
+	float number;
+	r->board->thread_cpus = 0;
+	while (strcmp(r->value, "any") && *at) {
+		if (r->board->thread_cpus == BOARD_THREADS_MAX - 1 || !number_cut(&at, &number) ||
+		    number > 1023.0f || number != (float)(int)number)
+			return fault(r, "give processors' numbers, at most 7, like 5 6 7, or any");
+		r->board->thread_cpu[r->board->thread_cpus++] = (int)number;
+	}
+	return true;
+}
+
 static bool value_language(struct reader *r)
 {
 	bool japanese = !strcmp(r->value, "ja");
@@ -174,6 +203,8 @@ enum key {
 	KEY_RELAX,
 	KEY_ACTIVE_LOW,
 	KEY_BUDGET,
+	KEY_THREADS,
+	KEY_CPUS,
 	KEY_IDLE,
 	KEY_LANGUAGE,
 	KEY_TABLET,
@@ -182,8 +213,8 @@ enum key {
 };
 
 static const char *key_names[KEY_COUNT] = {
-	"display_mm", "rotation", "wrap",     "pin",    "relax",     "active_low",
-	"budget",     "idle_s",   "language", "tablet", "tablet_mm",
+	"display_mm", "rotation",    "wrap",   "pin",      "relax",  "active_low", "budget",
+	"threads",    "thread_cpus", "idle_s", "language", "tablet", "tablet_mm",
 };
 
 static bool key_read(struct reader *r, enum key key)
@@ -204,6 +235,10 @@ static bool key_read(struct reader *r, enum key key)
 		return value_yes(r, &board->button_active_low);
 	case KEY_BUDGET:
 		return value_budget(r);
+	case KEY_THREADS:
+		return value_threads(r);
+	case KEY_CPUS:
+		return value_cpus(r);
 	case KEY_IDLE:
 		return value_int(r, 0, 86400, &board->idle_s);
 	case KEY_LANGUAGE:

@@ -9,7 +9,7 @@
 
 #include "input.h"
 
-enum { BOARD_NAME_MAX = 64, BOARD_TEXT_MAX = 64 << 10 };
+enum { BOARD_NAME_MAX = 64, BOARD_TEXT_MAX = 64 << 10, BOARD_THREADS_MAX = 8 };
 
 enum board_language { BOARD_ENGLISH, BOARD_JAPANESE };
 
@@ -19,7 +19,10 @@ struct board {
 	char button_line[BUTTON_COUNT][BOARD_NAME_MAX]; /* GPIO line names; "" for none */
 	bool button_active_low; /* pressed pulls the line to ground; a pull-up is asked for */
 	long budget_units;      /* solver's work a frame; 0: what the program takes as its own */
-	int idle_s;             /* without a touch for so long, the station starts anew; 0: never */
+	int threads;            /* that move the cloth; 0: as many as the host thinks right */
+	int thread_cpus;        /* how many of thread_cpu are given; 0: the system chooses */
+	int thread_cpu[BOARD_THREADS_MAX - 1]; /* of the threads beside the frame's own */
+	int idle_s; /* without a touch for so long, the station starts anew; 0: never */
 	enum board_language language;
 	int tablet_vendor, tablet_product;       /* take this tablet only; 0, 0: any */
 	float tablet_width_mm, tablet_height_mm; /* 0: what the tablet itself says */

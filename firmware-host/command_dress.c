@@ -10,6 +10,7 @@
 #include "report.h"
 #include "snapshot.h"
 #include "processor.h"
+#include "threads.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,12 +21,14 @@ enum { PICTURE_WIDTH = 1280, PICTURE_HEIGHT = 720, PROGRESS_FRAMES = 30 };
 static const char usage[] =
 	"usage: kitsuke dress JOURNAL [--obj FILE] [--glb FILE] [--picture FILE] [--report FILE]\n"
 	"                     [--body FILE|mannequin] [--body-obj FILE] [--bones FILE]\n"
-	"                     [--bones-out FILE] [--start OBJ] [--progress]\n";
+	"                     [--bones-out FILE] [--start OBJ] [--threads N] [--progress]\n";
 
 struct dresser {
 	const char *start; /* a drape that stands for the first wrap */
 	const char *journal, *obj, *glb, *picture, *report, *body, *body_obj, *bones, *bones_out;
 	bool progress;
+	long thread_count;
+	struct threads threads;
 	void *memory;
 	struct session *session;
 	struct edit *edit;
@@ -57,6 +60,7 @@ static bool dresser_open(struct dresser *dresser)
 	arena_init(&arena, dresser->memory, KIOSK_MEMORY_BYTES);
 	session_init(dresser->session, &arena);
 	dresser->session->cloth.lanes = processor_lanes();
+	dresser->session->cloth.crew = threads_crew(&dresser->threads);
 	return true;
 }
 
@@ -268,7 +272,8 @@ static int dress(struct dresser *dresser)
 
 int command_dress(int argc, char **argv)
 {
-	struct dresser dresser = {0};
+	/* one thread: several side by side use the processors better */
+	static struct dresser dresser = {.thread_count = 1};
 	const char *files[OPTION_FILES_MAX];
 	int count;
 	const struct option_value known[] = {
@@ -281,6 +286,7 @@ int command_dress(int argc, char **argv)
 		{"--body-obj", NULL, &dresser.body_obj, NULL},
 		{"--bones", NULL, &dresser.bones, NULL},
 		{"--bones-out", NULL, &dresser.bones_out, NULL},
+		{"--threads", NULL, NULL, &dresser.thread_count},
 		{"--progress", &dresser.progress, NULL, NULL},
 		{NULL, NULL, NULL, NULL},
 	};
@@ -290,7 +296,10 @@ int command_dress(int argc, char **argv)
 	}
 	dresser.journal = files[0];
 	dresser.progress = dresser.progress || isatty(STDERR_FILENO);
+	if (!threads_start(&dresser.threads, dresser.thread_count, NULL, dresser.fault))
+		return complain(&dresser, STATUS_USAGE);
 	int status = dress(&dresser);
+	threads_stop(&dresser.threads);
 	dresser_close(&dresser);
 	return status;
 }

@@ -10,6 +10,7 @@
 #include "report.h"
 #include "snapshot.h"
 #include "tape.h"
+#include "threads.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -25,13 +26,14 @@ enum {
 
 static const char usage[] =
 	"usage: kitsuke replay TAPE... --out DIR [--no-pictures] [--pictures-every FRAMES]\n"
-	"                      [--body FILE|mannequin] [--jitter-mm N] [--seed N]\n"
+	"                      [--body FILE|mannequin] [--jitter-mm N] [--seed N] [--threads N]\n"
 	"       kitsuke replay TAPE... --samples\n";
 
 struct replay {
 	const char *tape_path, *out, *body;
 	bool no_pictures, samples, progress;
 	long pictures_every, jitter_mm, seed;
+	struct crew *crew;
 	struct tape tape;
 	size_t cursor; /* into the tape's events */
 	int frame_count;
@@ -100,6 +102,7 @@ static bool start_kiosk(struct replay *replay)
 	struct kiosk *kiosk = replay->kiosk;
 	const char *name = replay->body ? replay->body : CHARACTER_MANNEQUIN;
 	kiosk_init(kiosk, replay->memory, replay->tape.width_px, replay->tape.height_px);
+	kiosk->session.cloth.crew = replay->crew;
 	if (!character_load(&kiosk->session.body, name, NULL, note, replay->fault))
 		return false;
 	if (note[0])
@@ -334,8 +337,10 @@ static int replay_one_of(const struct replay *common, const char *path, bool alo
 int command_replay(int argc, char **argv)
 {
 	static struct replay common;
+	static struct threads threads;
 	const char *files[OPTION_FILES_MAX];
 	int count;
+	long thread_count = 1; /* several replays side by side use the processors better */
 	common.seed = 1;
 	const struct option_value known[] = {
 		{"--out", NULL, &common.out, NULL},
@@ -345,6 +350,7 @@ int command_replay(int argc, char **argv)
 		{"--pictures-every", NULL, NULL, &common.pictures_every},
 		{"--jitter-mm", NULL, NULL, &common.jitter_mm},
 		{"--seed", NULL, NULL, &common.seed},
+		{"--threads", NULL, NULL, &thread_count},
 		{NULL, NULL, NULL, NULL},
 	};
 	if (!options_read(argc, argv, known, files, &count) || count == 0 ||
@@ -352,11 +358,15 @@ int command_replay(int argc, char **argv)
 		fputs(usage, stderr);
 		return STATUS_USAGE;
 	}
+	if (!threads_start(&threads, thread_count, NULL, common.fault))
+		return complain(&common, STATUS_USAGE);
+	common.crew = threads_crew(&threads);
 	common.progress = isatty(STDERR_FILENO);
 	int status = STATUS_DONE;
 	for (int i = 0; i < count; i++) {
 		int one = replay_one_of(&common, files[i], count == 1);
 		status = one > status ? one : status;
 	}
+	threads_stop(&threads);
 	return status;
 }

@@ -14,6 +14,7 @@
 #include "options.h"
 #include "resident.h"
 #include "store.h"
+#include "threads_board.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -45,6 +46,7 @@ struct station {
 	struct draw *draw;
 	int width, height;
 	void *memory;
+	struct threads threads;
 	struct kiosk *kiosk;
 	struct frame_reports *reports;
 	struct live *live;
@@ -194,6 +196,7 @@ static bool begin_visit(struct station *station)
 	struct kiosk *kiosk = station->kiosk;
 	const char *name = station->body ? station->body : CHARACTER_MANNEQUIN;
 	kiosk_init(kiosk, station->memory, station->width, station->height);
+	kiosk->session.cloth.crew = threads_crew(&station->threads);
 	if (!character_load(&kiosk->session.body, name, NULL, note, station->fault))
 		return false;
 	if (station->board.budget_units > 0)
@@ -223,7 +226,8 @@ static bool open_station(struct station *station)
 		snprintf(station->fault, FAULT_BYTES, "not enough memory");
 		return false;
 	}
-	if (!open_display(station) || !begin_visit(station))
+	if (!threads_start_board(&station->threads, &station->board, station->fault) ||
+	    !open_display(station) || !begin_visit(station))
 		return false;
 	char text[LIVE_TEXT_MAX];
 	station->opened_us = live_clock_us();
@@ -345,6 +349,7 @@ static bool run(struct station *station)
 
 static void close_station(struct station *station)
 {
+	threads_stop(&station->threads);
 	if (station->kiosk)
 		end_visit(station);
 	if (station->buttons)

@@ -8,7 +8,6 @@
 enum {
 	SPINS = 2000, /* some 50 us: longer than most of what a sweep does alone */
 	STACK_BYTES = 512 << 10,
-	AUTO_MAX = 4, /* what is done alone leaves little for more */
 };
 
 static void pause_briefly(void)
@@ -170,14 +169,17 @@ static int start_one(struct threads *threads, int index, int cpu)
 	return error;
 }
 
-bool threads_start(struct threads *threads, int count, const int *cpu, char fault[FAULT_BYTES])
+bool threads_start(struct threads *threads, long count, const int *cpu, char fault[FAULT_BYTES])
 {
 	sigset_t all, before;
 	int error = 0;
-	MUST(count >= 1 && count <= THREADS_MAX);
 	memset(threads, 0, sizeof *threads);
+	if (count < 1 || count > THREADS_MAX) {
+		snprintf(fault, FAULT_BYTES, "%ld threads; 1 to %d can be had", count, THREADS_MAX);
+		return false;
+	}
 	threads->crew.run = run;
-	threads->count = count;
+	threads->count = (int)count;
 	pthread_mutex_init(&threads->mutex, NULL);
 	pthread_cond_init(&threads->begun, NULL);
 	pthread_cond_init(&threads->done, NULL);
@@ -186,13 +188,13 @@ bool threads_start(struct threads *threads, int count, const int *cpu, char faul
 	pthread_sigmask(SIG_BLOCK, &all, &before);
 	int started = 1;
 	while (started < count && !error) {
-		error = start_one(threads, started, cpu ? cpu[started] : -1);
+		error = start_one(threads, started, cpu ? cpu[started] : THREADS_ANY);
 		started += !error;
 	}
 	pthread_sigmask(SIG_SETMASK, &before, NULL);
 	if (!error)
 		return true;
-	snprintf(fault, FAULT_BYTES, "thread %d of %d does not start: %s", started + 1, count,
+	snprintf(fault, FAULT_BYTES, "thread %d of %ld does not start: %s", started + 1, count,
 		 strerror(error));
 	stop(threads, started);
 	return false;
@@ -207,9 +209,4 @@ void threads_stop(struct threads *threads)
 struct crew *threads_crew(struct threads *threads)
 {
 	return threads->count > 1 ? &threads->crew : NULL;
-}
-
-int threads_auto(void)
-{
-	return int_clamp((int)sysconf(_SC_NPROCESSORS_ONLN) - 1, 1, AUTO_MAX);
 }

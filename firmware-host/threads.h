@@ -10,7 +10,7 @@
 #include <stdatomic.h>
 #include <stdint.h>
 
-enum { THREADS_MAX = 8 };
+enum { THREADS_MAX = 8, THREADS_ANY = -1 };
 
 /* Parts of the present work that belong to one thread; the others help when they have done theirs.
  * One word: the work's number in the upper half, then the next part and the last one's end. */
@@ -39,15 +39,12 @@ struct threads {
 	struct threads_seat seat[THREADS_MAX];
 };
 
-/* Starts count - 1 threads beside the caller, each bound to the processor that cpu[] names for it
- * (cpu NULL: to none). False: fault says why, and none runs. */
-bool threads_start(struct threads *threads, int count, const int *cpu, char fault[FAULT_BYTES]);
+/* Starts count - 1 threads beside the caller, thread i bound to the processor cpu[i] (THREADS_ANY,
+ * or cpu NULL: to none). False: fault says why, and none runs. */
+bool threads_start(struct threads *threads, long count, const int *cpu, char fault[FAULT_BYTES]);
 void threads_stop(struct threads *threads);
 
 /* What the core takes; NULL for a single thread. */
 struct crew *threads_crew(struct threads *threads);
-
-/* One for the picture and the system, the others, at most four, for the cloth. */
-int threads_auto(void);
 
 #endif

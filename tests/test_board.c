@@ -16,6 +16,8 @@ static bool same(const struct board *a, const struct board *b)
 	return lines && a->display_width_mm == b->display_width_mm &&
 	       a->display_height_mm == b->display_height_mm && a->rotation == b->rotation &&
 	       a->button_active_low == b->button_active_low && a->budget_units == b->budget_units &&
+	       a->threads == b->threads && a->thread_cpus == b->thread_cpus &&
+	       !memcmp(a->thread_cpu, b->thread_cpu, sizeof a->thread_cpu) &&
 	       a->idle_s == b->idle_s && a->language == b->language &&
 	       a->tablet_vendor == b->tablet_vendor && a->tablet_product == b->tablet_product &&
 	       a->tablet_width_mm == b->tablet_width_mm &&
@@ -38,6 +40,7 @@ static void check_keys(void)
 		&board,
 		"display_mm = 344.2 194\r\n\trotation=270 # turned\nwrap = GPIO17\npin=none\n"
 		"relax = GPIO 27\nactive_low = no\nbudget = 250000\nidle_s = 0\n"
+		"threads = 4\nthread_cpus = 5 6 7\n"
 		"language = ja\ntablet = 256C:006d\ntablet_mm = 254 158.75",
 		fault));
 	CHECK_NEAR(board.display_width_mm, 344.2, 1e-3);
@@ -46,6 +49,7 @@ static void check_keys(void)
 	CHECK(!strcmp(board.button_line[BUTTON_WRAP], "GPIO17"));
 	CHECK(!strcmp(board.button_line[BUTTON_PIN], ""));
 	CHECK(!strcmp(board.button_line[BUTTON_RELAX], "GPIO 27"));
+	CHECK(board.threads == 4 && board.thread_cpus == 3 && board.thread_cpu[2] == 7);
 	CHECK(board.idle_s == 0 && board.language == BOARD_JAPANESE);
 	CHECK(board.tablet_vendor == 0x256c && board.tablet_product == 0x6d);
 	CHECK_NEAR(board.tablet_height_mm, 158.75, 1e-3);
@@ -70,6 +74,10 @@ static void check_faults(void)
 		{"idle_s = 1.5", "line 1: idle_s = 1.5; give a whole number from 0 to 86400"},
 		{"idle_s = 99999999999", "line 1: idle_s"},
 		{"budget = lots", "line 1: budget"},
+		{"threads = 0", "line 1: threads = 0; give a whole number from 1 to 8"},
+		{"thread_cpus = 1 2.5", "line 1: thread_cpus = 1 2.5; give processors' numbers"},
+		{"thread_cpus = 1 2 3 4 5 6 7 8", "line 1: thread_cpus"},
+		{"thread_cpus = 1 any", "line 1: thread_cpus"},
 		{"active_low = maybe", "line 1: active_low = maybe; give yes or no"},
 		{"language = de", "line 1: language = de; give en or ja"},
 		{"tablet = 256c", "line 1: tablet = 256c; give vendor"},

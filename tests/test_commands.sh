@@ -21,6 +21,8 @@ test_usage() {
   expect 2 "unknown option" dress --cloth x.kitsuke
   expect 2 "needs a value" dress x.kitsuke --obj
   expect 2 "whole number" replay x.hid --out x --seed many
+  expect 2 "1 to 8" replay x.hid --out x --threads 9
+  expect 2 "1 to 8" dress x.kitsuke --threads 0
   expect 2 "usage" replay x.hid
   expect 2 "usage" check
   expect 2 "usage" help nonsense
