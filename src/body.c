@@ -4,10 +4,7 @@
 #include "body_private.h"
 #include "body_tree.h"
 
-enum {
-	LEAF_TRIANGLES = LANES,
-	NODES_MAX = 2 * (BODY_TRIANGLES_MAX / LEAF_TRIANGLES + 1),
-};
+enum { LEAF_TRIANGLES = LANES };
 
 void body_init(struct body *body, struct arena *arena)
 {
@@ -20,7 +17,7 @@ void body_init(struct body *body, struct arena *arena)
 	body->star_first = ARENA_ARRAY(arena, int, BODY_VERTICES_MAX + 1);
 	body->star = ARENA_ARRAY(arena, int, 3 * BODY_TRIANGLES_MAX);
 	body->part = ARENA_ARRAY(arena, uint8_t, BODY_TRIANGLES_MAX);
-	body->node = ARENA_ARRAY(arena, struct bvh_node, NODES_MAX);
+	body->node = ARENA_ARRAY(arena, struct bvh_node, BODY_NODES_MAX);
 	body->node_triangle = ARENA_ARRAY(arena, int, BODY_TRIANGLES_MAX);
 	body->near = near_tree_init(arena);
 	body->prism = ARENA_ARRAY(arena, struct prism, BODY_TRIANGLES_MAX);
@@ -139,7 +136,7 @@ static void turn_inside_out(struct body *body)
 
 /* Angle-weighted vertex normals (Thuermer and Wuethrich 1998; Baerentzen and Aanaes 2005 show that
  * they give the right sign of distance). */
-static void build_normals(struct body *body)
+void body_build_normals(struct body *body)
 {
 	memset(body->normal, 0, (size_t)body->vertex_count * sizeof *body->normal);
 	for (int t = 0; t < body->triangle_count; t++) {
@@ -257,13 +254,33 @@ static void build_tree(struct body *body)
 		int *item = body->node_triangle + first, half = middle_of(count);
 		select_middle(item, count, half, scratch->centre_m,
 			      longest_axis(item, count, scratch->centre_m));
-		MUST(body->node_count + 2 <= NODES_MAX);
+		MUST(body->node_count + 2 <= BODY_NODES_MAX);
 		node->first = body->node_count;
 		node->count = 0;
 		body->node[body->node_count].first = first;
 		body->node[body->node_count++].count = half;
 		body->node[body->node_count].first = first + half;
 		body->node[body->node_count++].count = count - half;
+	}
+	near_tree_build(body->near, body->node, body->node_triangle, body->triangle,
+			body->position_m);
+	body->low_m = body->node[0].low_m;
+	body->high_m = body->node[0].high_m;
+}
+
+void body_refit(struct body *body)
+{
+	for (int n = body->node_count - 1; n >= 0; n--) {
+		struct bvh_node *node = &body->node[n];
+		if (node->count > 0) {
+			bound_node(body, node, node->first, node->count);
+			continue;
+		}
+		const struct bvh_node *child = &body->node[node->first];
+		node->low_m = child[0].low_m;
+		node->high_m = child[0].high_m;
+		grow(&node->low_m, &node->high_m, child[1].low_m);
+		grow(&node->low_m, &node->high_m, child[1].high_m);
 	}
 	near_tree_build(body->near, body->node, body->node_triangle, body->triangle,
 			body->position_m);
@@ -306,7 +323,7 @@ const char *body_build(struct body *body, const struct v3 *position_m, int verte
 		turn_inside_out(body);
 		find_neighbours(body);
 	}
-	build_normals(body);
+	body_build_normals(body);
 	body_build_prisms(body);
 	build_tree(body);
 	body_find_clear(body);

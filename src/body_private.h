@@ -5,6 +5,9 @@
 #include "body_landmark_private.h"
 #include "body_look.h"
 #include "body_parts.h"
+#include "lanes.h"
+
+enum { BODY_NODES_MAX = 2 * (BODY_TRIANGLES_MAX / LANES + 1) };
 
 enum { TREE_STACK_MAX = 64 }; /* twice the depth of a median tree of all triangles that fit */
 
@@ -22,6 +25,11 @@ void near_search(const struct body *body, struct v3 p, unsigned parts, float sha
 
 /* Does the point lie where the parts asked for end? */
 bool near_on_rim(const struct body *body, const struct nearest *nearest, unsigned parts);
+
+void body_build_normals(struct body *body);
+
+/* Fits the trees' boxes to places that have changed. */
+void body_refit(struct body *body);
 
 /* body.prism; then, with the tree, the balls by which a walk can be trusted (body_track.c). */
 void body_build_prisms(struct body *body);

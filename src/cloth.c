@@ -140,6 +140,8 @@ static void clear(struct cloth *cloth, const struct garment *garment, const stru
 	memset(cloth->creased, 0, GARMENT_VERTICES_MAX);
 	memset(cloth->piece_parts, 0, sizeof cloth->piece_parts);
 	memset(cloth->piece_drawn, 0, sizeof cloth->piece_drawn);
+	for (int p = 0; p < PIECES_MAX; p++)
+		cloth->piece_gather[p] = (struct gather){{0.0f, 1.0f}, 0.0f, 1.0f};
 	memset(cloth->scratch->stiff, 0, GARMENT_VERTICES_MAX);
 	memset(cloth->scratch->lift_m, 0, GARMENT_VERTICES_MAX * sizeof(float));
 	memset(cloth->scratch->lift_way, 0, GARMENT_VERTICES_MAX * sizeof(struct v3));

@@ -18,6 +18,14 @@ struct contact {
 	float distance_m;
 };
 
+/* Cloth that is too long for where it lies is gathered in wrinkles too fine for the mesh: past
+ * `from_m` along a direction of the flat piece only a share of its length is left. */
+struct gather {
+	struct v2 along; /* unit vector */
+	float from_m;
+	float share; /* 1: as it is cut */
+};
+
 struct cloth_settings {
 	float shape;       /* 0..1: share of a triangle's way back to its rest shape */
 	int shape_passes;  /* over all triangles in one sweep */
@@ -55,6 +63,7 @@ struct cloth {
 	bool worn;  /* a wrap has finished: there is a garment to drag */
 	unsigned piece_parts[PIECES_MAX]; /* bit set of enum body_part; 0: all */
 	bool piece_drawn[PIECES_MAX];     /* attract_m works on this piece */
+	struct gather piece_gather[PIECES_MAX];
 	int *particle;                    /* per vertex: itself, or weld[] once welded */
 	struct triangle *triangle;        /* through particle[] */
 	int *star_first; /* per particle + 1: its corners are star[star_first[v] ..], */
@@ -101,6 +110,12 @@ struct cloth_settings cloth_settings_relax(void);
 /* After the last sweep of a frame: every vertex of a welded cloth takes its particle's position, so
  * that readers may use position_m[v] directly. */
 void cloth_finish(struct cloth *cloth);
+
+/* Where a garment vertex lies on its flat piece, as gathers leave it. */
+struct v2 cloth_flat_m(const struct cloth *cloth, int v);
+
+/* Takes changed gathers into the rest shapes. */
+void cloth_take_gathers(struct cloth *cloth);
 
 /* Largest principal stretch of a triangle minus 1, 0 where it is not stretched (0.02: 2 %). */
 float cloth_stretch(const struct cloth *cloth, int triangle);

@@ -4,15 +4,23 @@
 
 enum { SELF_UNITS = 20 }; /* a vertex's share of the tables of cloth_self*.c */
 
+struct v2 cloth_flat_m(const struct cloth *cloth, int v)
+{
+	const struct gather *gather = &cloth->piece_gather[cloth->garment->piece[v]];
+	struct v2 p = cloth->garment->rest_m[v];
+	float past_m = float_max(v2_dot(p, gather->along) - gather->from_m, 0.0f);
+	return v2_add(p, v2_scale(gather->along, (gather->share - 1.0f) * past_m));
+}
+
 static void build_rest(struct cloth *cloth)
 {
 	const struct garment *garment = cloth->garment;
 	struct cloth_scratch *s = cloth->scratch;
 	for (int t = 0; t < garment->triangle_count; t++) {
 		const int *v = garment->triangle[t].v;
-		struct v2 a = garment->rest_m[v[0]];
-		struct v2 u1 = v2_sub(garment->rest_m[v[1]], a),
-			  u2 = v2_sub(garment->rest_m[v[2]], a);
+		struct v2 a = cloth_flat_m(cloth, v[0]);
+		struct v2 u1 = v2_sub(cloth_flat_m(cloth, v[1]), a);
+		struct v2 u2 = v2_sub(cloth_flat_m(cloth, v[2]), a);
 		float det = v2_cross(u1, u2);
 		det = det > 1e-10f ? det : 1e-10f;
 		struct v2 d1 = {u2.y / det, -u1.y / det}, d2 = {-u2.x / det, u1.x / det};
@@ -180,6 +188,7 @@ static uint64_t mesh_id(const struct cloth *cloth)
 	hash = MIX(hash, garment->rest_m, garment->vertex_count);
 	hash = MIX(hash, garment->weld, garment->vertex_count);
 	hash = MIX(hash, garment->triangle, garment->triangle_count);
+	hash = MIX(hash, cloth->piece_gather, PIECES_MAX);
 	return hash | 1;
 }
 
@@ -199,6 +208,13 @@ static const struct {
 	{build_rest, 10},  {build_edges, 40}, {build_stars, 15},
 	{march_build, 15}, {cloth_order, 50}, {cloth_begin_levels, 5},
 };
+
+void cloth_take_gathers(struct cloth *cloth)
+{
+	build_rest(cloth);
+	cloth->scratch->build.mesh_id = mesh_id(cloth);
+	cloth->scratch->stale = true;
+}
 
 void cloth_build_begin(struct cloth *cloth)
 {

@@ -26,6 +26,7 @@ enum wrap_stage {
 	WRAP_GROW,   /* the rest follows ring by ring, continuing the cloth that lies there */
 	WRAP_CLOSE,  /* seams pull together, then the marks let go */
 	WRAP_WELD,   /* sewn vertices become one */
+	WRAP_FILL,   /* the slim body grows into the garment */
 	WRAP_UNFOLD, /* folds are turned back */
 	WRAP_SETTLE, /* gravity; contact at midpoints and centres; last clean-up */
 	WRAP_MOVE,   /* instead of all before WRAP_SETTLE: worn cloth goes to new marks */

@@ -45,7 +45,7 @@ static int count_stations(const struct wrap *wrap, int part, int *closed)
 	for (int v = 0; v < cloth->garment->vertex_count; v++) {
 		struct beside at;
 		if (wrap->scratch->home[cloth->garment->piece[v]] != part || !cloth->placed[v] ||
-		    !wrap_beside(cloth->body, part, cloth->position_m[v], &at) || at.reach_m < 0.0f)
+		    !body_beside(cloth->body, part, cloth->position_m[v], &at) || at.reach_m < 0.0f)
 			continue;
 		int station = int_min((int)(at.reach_m / station_m), STATIONS - 1);
 		seen[station] |= (uint8_t)(1 << sector(&at, cloth->position_m[v]));

@@ -61,10 +61,11 @@ static struct v3 unfolded(const struct wrap *wrap, int t, int k, int across)
 		v3_cross(v3_sub(x[q[1]], x[q[0]]), v3_sub(x[q[2]], x[q[0]])));
 	struct v3 a_m = x[p[(k + 1) % 3]], b_m = x[p[(k + 2) % 3]];
 	struct v3 edge = v3_normalize(v3_sub(b_m, a_m));
-	struct v2 flat = v2_sub(garment->rest_m[b], garment->rest_m[a]);
+	struct v2 a_flat = cloth_flat_m(cloth, a);
+	struct v2 flat = v2_sub(cloth_flat_m(cloth, b), a_flat);
 	float length = v2_length(flat);
 	struct v2 u = v2_scale(flat, 1.0f / float_max(length, 1e-6f));
-	struct v2 to = v2_sub(garment->rest_m[d], garment->rest_m[a]);
+	struct v2 to = v2_sub(cloth_flat_m(cloth, d), a_flat);
 	struct v3 middle = v3_lerp(a_m, b_m, 0.5f);
 	struct v3 left = v3_normalize(v3_cross(normal, edge));
 	struct v3 flat_on = v3_mad(v3_mad(middle, edge, v2_dot(to, u) - 0.5f * length), left,
@@ -123,8 +124,7 @@ int wrap_grow_ring(struct wrap *wrap)
 		if (s->count[v] == 0)
 			continue;
 		struct v3 place = v3_scale(s->sum_m[v], 1.0f / (float)s->count[v]);
-		cloth->position_m[v] = wrap_above_wrist(wrap, garment->piece[v], place);
-		cloth->previous_m[v] = cloth->position_m[v];
+		cloth->position_m[v] = cloth->previous_m[v] = wrap_widened(wrap, v, place);
 		cloth->placed[v] = 1;
 		cloth_look(cloth, v);
 		placed++;

@@ -5,9 +5,6 @@
 
 enum { TRUNK_BIT = 1 << PART_TRUNK };
 
-enum { BINS = 64 };
-static const float bin_m = 0.02f;                /* a section of a limb */
-static const float wrist_widening = 1.5f;        /* hands and feet are so much wider than wrists */
 static const float curl_radius_least_m = 0.005f; /* nearer to a bone there is no way round it */
 
 /* Points of a piece's marks that lie on each part of the body. */
@@ -87,6 +84,12 @@ static void allow_parts(struct wrap *wrap)
 	}
 }
 
+void wrap_meet_all(struct wrap *wrap)
+{
+	for (int p = 0; p < PIECES_MAX; p++)
+		wrap->cloth->piece_parts[p] = (1u << PART_COUNT) - 1;
+}
+
 void wrap_find_homes(struct wrap *wrap)
 {
 	int votes[PIECES_MAX][PART_COUNT];
@@ -101,97 +104,10 @@ void wrap_find_homes(struct wrap *wrap)
 
 /* ---- bones as axes ---- */
 
-bool wrap_beside(const struct body *body, int part, struct v3 p_m, struct beside *beside)
-{
-	float best = 1e9f, before_m = 0.0f;
-	int first = -1, last = -1;
-	for (int b = 0; b < body->bone_count; b++)
-		if ((int)body->bone[b].part == part && (first < 0 || last == b - 1)) {
-			first = first < 0 ? b : first;
-			last = b;
-		}
-	*beside = (struct beside){p_m, {0.0f, 1.0f, 0.0f}, 0.0f};
-	for (int b = first; first >= 0 && b <= last; b++) {
-		struct v3 a_m = body->bone[b].a_m, step = v3_sub(body->bone[b].b_m, a_m);
-		float length = float_max(v3_length(step), 1e-4f);
-		struct v3 along = v3_scale(step, 1.0f / length);
-		float reach = v3_dot(v3_sub(p_m, a_m), along);
-		reach = b > first ? float_max(reach, 0.0f) : reach;
-		reach = b < last ? float_min(reach, length) : reach;
-		struct v3 q = v3_mad(a_m, along, reach);
-		float distance = v3_distance(q, p_m);
-		if (distance < best) {
-			best = distance;
-			*beside = (struct beside){q, along, before_m + reach};
-		}
-		before_m += length;
-	}
-	return first >= 0;
-}
-
-static int bin_of(float reach_m)
-{
-	return (int)float_clamp(reach_m / bin_m, 0.0f, (float)(BINS - 1));
-}
-
-/* The last narrow place of a limb before it widens into hand or foot, as a reach; far away where a
- * limb does not widen. `wide_m`: radius of its sections, 0 where none was seen. */
-static float find_wrist(const float wide_m[BINS])
-{
-	int narrow = -1;
-	float reach_m = 1e9f;
-	for (int i = 0; i < BINS; i++) {
-		if (wide_m[i] <= 0.0f)
-			continue;
-		if (narrow < 0 || wide_m[i] <= wide_m[narrow])
-			narrow = i;
-		else if (wide_m[i] > wrist_widening * wide_m[narrow])
-			reach_m = ((float)narrow + 1.0f) * bin_m;
-	}
-	return reach_m;
-}
-
-/* Cloth that is too long for its limb gathers above the hand or the foot: laid over fingers and
- * toes it would be cut by them. */
-void wrap_measure_limbs(struct wrap *wrap)
-{
-	const struct body *body = wrap->cloth->body;
-	float wide_m[PART_COUNT][BINS];
-	memset(wide_m, 0, sizeof wide_m);
-	for (int v = 0; v < body->vertex_count; v++) {
-		struct beside beside;
-		int part = body->part[body->star[body->star_first[v]]];
-		if (part < PART_ARM_LEFT || !wrap_beside(body, part, body->position_m[v], &beside))
-			continue;
-		float *wide = &wide_m[part][bin_of(beside.reach_m)];
-		*wide = float_max(*wide, v3_distance(body->position_m[v], beside.axis_m));
-	}
-	for (int part = 0; part < PART_COUNT; part++)
-		wrap->scratch->wrist_m[part] = find_wrist(wide_m[part]);
-}
-
-float wrap_room(const struct wrap *wrap, int piece, struct v3 p_m)
-{
-	struct beside at;
-	int home = wrap->scratch->home[piece];
-	if (home < PART_ARM_LEFT || !wrap_beside(wrap->cloth->body, home, p_m, &at))
-		return 1e9f;
-	return wrap->scratch->wrist_m[home] - at.reach_m;
-}
-
-struct v3 wrap_above_wrist(const struct wrap *wrap, int piece, struct v3 p_m)
-{
-	struct beside at;
-	int home = wrap->scratch->home[piece];
-	if (home < PART_ARM_LEFT || !wrap_beside(wrap->cloth->body, home, p_m, &at))
-		return p_m;
-	return v3_mad(p_m, at.along, float_min(wrap->scratch->wrist_m[home] - at.reach_m, 0.0f));
-}
-
 bool wrap_outward(const struct body *body, const struct body_hit *hit, struct v3 *out)
 {
 	struct beside at;
-	if (!wrap_beside(body, body->part[hit->triangle], hit->point_m, &at))
+	if (!body_beside(body, body->part[hit->triangle], hit->point_m, &at))
 		return false;
 	*out = v3_normalize(v3_sub(hit->point_m, at.axis_m));
 	return true;
@@ -201,7 +117,7 @@ struct v3 wrap_curl(const struct wrap *wrap, int piece, struct v3 from_m, struct
 {
 	struct beside at;
 	int home = wrap->scratch->home[piece];
-	if (home < PART_ARM_LEFT || !wrap_beside(wrap->cloth->body, home, from_m, &at))
+	if (home < PART_ARM_LEFT || !body_beside(wrap->cloth->body, home, from_m, &at))
 		return to_m;
 	struct v3 arm = v3_sub(from_m, at.axis_m);
 	arm = v3_mad(arm, at.along, -v3_dot(arm, at.along));

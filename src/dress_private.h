@@ -2,16 +2,26 @@
 #ifndef DRESS_PRIVATE_H
 #define DRESS_PRIVATE_H
 
+#include "body_limb.h"
+#include "body_slim.h"
 #include "cloth_private.h"
 #include "dress.h"
 
-enum { PART_NONE = -1 }; /* a home nowhere on the body */
+enum {
+	PART_NONE = -1,
+	TUBE_SECTIONS = 64,
+}; /* a home nowhere on the body */
 
 struct wrap_scratch {
-	int8_t home[PIECES_MAX];   /* enum body_part that the piece belongs to, or PART_NONE */
-	float wrist_m[PART_COUNT]; /* cloth goes so far along a limb's bones */
-	uint8_t *seeded;           /* per piece: a mark lies on it */
-	struct v3 *sum_m;          /* per vertex: predictions of a ring */
+	const struct body *full; /* to be dressed */
+	struct body slim;        /* that the garment is laid and sewn round */
+	int8_t home[PIECES_MAX]; /* enum body_part that the piece belongs to, or PART_NONE */
+	struct limb_shape limb[PART_COUNT];
+	bool in_tube[PIECES_MAX]; /* it goes round its limb along piece_gather.along */
+	float hem_m[PIECES_MAX];  /* how far along */
+	float tube_m[PART_COUNT][TUBE_SECTIONS]; /* girths of the cloth from its hem up */
+	uint8_t *seeded;                         /* per piece: a mark lies on it */
+	struct v3 *sum_m;                        /* per vertex: predictions of a ring */
 	int *count;
 	int *edge_first;    /* per vertex + 1: triangles on edges whose lower vertex it is */
 	int *edge_triangle; /* triangle * 3 + corner */
@@ -50,28 +60,32 @@ bool wrap_mend_marks(struct wrap *wrap);
 /* Fills scratch->home and the cloth's piece_parts (dress_home.c). */
 void wrap_find_homes(struct wrap *wrap);
 
-/* Where a point lies beside a limb's bones. */
-struct beside {
-	struct v3 axis_m; /* nearest point of the bones, which go on straight beyond both ends */
-	struct v3 along;  /* their direction there */
-	float reach_m;    /* from the first bone's start to axis_m, along the bones */
-};
-
-/* False: the part has no bones. */
-bool wrap_beside(const struct body *body, int part, struct v3 p_m, struct beside *beside);
-
 /* Says which limb is not in its tube, and whether the head is covered (dress_check.c). */
 void wrap_check(struct wrap *wrap);
 
-/* Finds how far along each limb cloth may go: to wrist or ankle. */
-void wrap_measure_limbs(struct wrap *wrap);
+/* Shortens what is too long for its limb, and measures the tubes (dress_gather.c). */
+void wrap_gather(struct wrap *wrap);
 
-/* How far it still is along the limb's bones to wrist or ankle, below 0: past them; 1e9: the piece
- * belongs to no limb, or the limb has neither. */
-float wrap_room(const struct wrap *wrap, int piece, struct v3 p_m);
+/* Once the garment is on: what is little too long gets its length back, the rest is reported. */
+void wrap_let_out(struct wrap *wrap);
 
-/* The point, or the place above the wrist where its growth stops. */
-struct v3 wrap_above_wrist(const struct wrap *wrap, int piece, struct v3 p_m);
+/* How wide the tubes round each limb are cut (dress_tube.c). */
+void wrap_measure_tubes(struct wrap *wrap);
+
+/* The place of a vertex, or where it lies in a tube that is wider than its limb. */
+struct v3 wrap_widened(const struct wrap *wrap, int v, struct v3 p_m);
+
+/* The points of a mark, steadied, into mark_point_m and mark_normal with along_m, or flat into
+ * cloth_line_m. Both return the line's length in metres. */
+float wrap_body_line(struct wrap *wrap, const struct body_mark *mark);
+float wrap_cloth_line(struct wrap *wrap, const struct cloth_mark *mark);
+
+/* Moves sleeves and trouser legs out of the hull of hands and feet. share 0: the limb is slim, 1:
+ * it is whole. Returns the units spent. */
+long wrap_clear_hands(struct wrap *wrap, float share);
+
+/* Every piece meets every part of the body from now on. */
+void wrap_meet_all(struct wrap *wrap);
 
 /* The direction away from the bones of the part that was hit. False: it has none. */
 bool wrap_outward(const struct body *body, const struct body_hit *hit, struct v3 *out);

@@ -17,7 +17,6 @@ static const float cleft_free_m = 0.008f; /* outside a cleft its sides are farth
 static const float cleft_depth_m = 0.06f;
 static const float looks_down = -0.35f; /* y of a normal */
 static const float lengths_differ = 0.3f;
-static const float share_least = 0.5f; /* cloth is not pushed together more than so */
 
 void wrap_diagnose(struct wrap *wrap, const char *kind, int mark_1, int mark_2, const char *text)
 {
@@ -73,7 +72,7 @@ static void leave_cleft(const struct body *body, struct body_hit *hit)
 }
 
 /* The body's line without the hand's tremor: steadied and laid back onto the surface. */
-static float body_line(struct wrap *wrap, const struct body_mark *mark)
+float wrap_body_line(struct wrap *wrap, const struct body_mark *mark)
 {
 	struct wrap_scratch *s = wrap->scratch;
 	int count = mark->point_count;
@@ -93,7 +92,7 @@ static float body_line(struct wrap *wrap, const struct body_mark *mark)
 }
 
 /* The cloth's line, likewise. */
-static float cloth_line(struct wrap *wrap, const struct cloth_mark *mark)
+float wrap_cloth_line(struct wrap *wrap, const struct cloth_mark *mark)
 {
 	struct wrap_scratch *s = wrap->scratch;
 	float length = 0.0f;
@@ -165,31 +164,6 @@ static float nearest_on_line(const struct v3 *line_m, int count, struct v2 p_m, 
 	return best;
 }
 
-/* How much of its length cloth may keep on a limb: its far end is to come to lie above hand or
- * foot. 1: it is not too long. */
-static float limb_share(const struct wrap *wrap, const struct cloth_mark *mark,
-			const struct body_mark *on)
-{
-	const struct garment *garment = wrap->cloth->garment;
-	const struct wrap_scratch *s = wrap->scratch;
-	int count = mark->point_count, points = on->point_count;
-	struct v3 a = s->cloth_line_m[count - 2], b = s->cloth_line_m[count - 1];
-	struct v2 u = v2_normalize((struct v2){b.x - a.x, b.y - a.y});
-	float line_m = 0.0f, past_m = 0.0f, free_m = s->along_m[points - 1];
-	for (int i = 1; i < count; i++)
-		line_m += v3_distance(s->cloth_line_m[i - 1], s->cloth_line_m[i]);
-	for (int v = garment->piece_first[mark->piece]; v < garment->piece_first[mark->piece + 1];
-	     v++)
-		past_m = float_max(past_m,
-				   v2_dot(v2_sub(garment->rest_m[v], (struct v2){b.x, b.y}), u));
-	float room_m = wrap_room(wrap, mark->piece, s->mark_point_m[0]);
-	float room_end_m = wrap_room(wrap, mark->piece, s->mark_point_m[points - 1]);
-	if (room_m > 1e6f || room_end_m > room_m)
-		return 1.0f;
-	free_m += room_end_m;
-	return float_clamp(free_m / float_max(line_m + past_m, 1e-3f), share_least, 1.0f);
-}
-
 /* Has a triangle of the piece been laid, from which cloth can grow? */
 static bool can_grow(const struct cloth *cloth, int piece)
 {
@@ -205,6 +179,8 @@ static void lay(struct wrap *wrap, int v, struct v3 place_m)
 {
 	struct cloth *cloth = wrap->cloth;
 	int at = cloth->particle[v];
+	if (!wrap->scratch->aiming)
+		place_m = wrap_widened(wrap, v, place_m);
 	cloth->goal_m[at] = place_m;
 	cloth->held[at] = 1;
 	if (wrap->scratch->aiming)
@@ -219,9 +195,9 @@ static int seed_mark(struct wrap *wrap, const struct cloth_mark *mark, const str
 {
 	struct cloth *cloth = wrap->cloth;
 	const struct garment *garment = cloth->garment;
-	float body_m = body_line(wrap, on), cloth_m = cloth_line(wrap, mark);
+	float body_m = wrap_body_line(wrap, on), cloth_m = wrap_cloth_line(wrap, mark);
 	float width = wide * garment->edge_m;
-	float share = limb_share(wrap, mark, on);
+	float share = cloth->piece_gather[mark->piece].share;
 	int seeds = 0;
 	if (wide == seed_width && !wrap->scratch->mended &&
 	    float_abs(body_m - cloth_m) > lengths_differ * float_max(body_m, cloth_m))
@@ -342,7 +318,9 @@ static int seed_marks(struct wrap *wrap)
 {
 	int seeds = 0;
 	wrap_find_homes(wrap);
-	wrap_measure_limbs(wrap);
+	body_measure_limbs(wrap->cloth->body, wrap->scratch->limb);
+	if (!wrap->scratch->aiming)
+		wrap_gather(wrap);
 	for (int m = 0; m < MARKS_MAX; m++) {
 		const struct cloth_mark *mark = &wrap->marks->cloth[m];
 		const struct body_mark *on = mark->used ? wrap_partner(wrap, mark->number) : NULL;

@@ -10,10 +10,13 @@ enum {
 	RELEASE_SWEEPS = 30, /* still closing, but the marks have let go */
 	LATE_SWEEPS = 110,   /* the same when seams are late */
 	WELD_SWEEPS = 25,
+	FILL_STEPS = 10, /* of the body */
+	FILL_SWEEPS = 6, /* a step */
 	UNFOLD_ROUNDS = 6,
 	UNFOLD_SWEEPS = 16,
 	SETTLE_SWEEPS = 64,
 	PUSH_ROUNDS = 4,
+	LOOK_UNITS = 32, /* an exact query */
 };
 
 static const float gap_late_m = 0.02f;   /* seams wider than this need more closing */
@@ -29,6 +32,7 @@ void wrap_init(struct wrap *wrap, struct arena *arena)
 	s->count = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
 	s->edge_first = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX + 2);
 	s->edge_triangle = ARENA_ARRAY(arena, int, 3 * GARMENT_TRIANGLES_MAX);
+	body_slim_init(&s->slim, arena);
 	wrap->scratch = s;
 }
 
@@ -63,6 +67,14 @@ static struct cloth_settings closing(void)
 	return set;
 }
 
+static struct cloth_settings filling(void)
+{
+	struct cloth_settings set = closing();
+	set.momentum = 0.0f;
+	set.friction = 0.0f;
+	return set;
+}
+
 static struct cloth_settings unfolding(void)
 {
 	struct cloth_settings set = growing();
@@ -92,14 +104,26 @@ static void enter(struct wrap *wrap, enum wrap_stage stage, struct cloth_setting
 	wrap->cloth->settings = settings;
 }
 
+/* The cloth meets this body from now on. */
+static void turn_to(struct cloth *cloth, const struct body *body)
+{
+	cloth->body = body;
+	for (int v = 0; v < cloth->garment->vertex_count; v++)
+		if (is_particle(cloth, v))
+			cloth_look(cloth, v);
+}
+
 static bool lay_marks(struct wrap *wrap)
 {
+	wrap->cloth->body = wrap->scratch->full;
 	wrap->scratch->rounds = 0;
 	wrap->scratch->disagree = false;
 	wrap->cloth->settings = growing();
 	if (wrap_seed(wrap) == 0)
 		return false;
 	wrap_grow_init(wrap);
+	if (body_slim_make(&wrap->scratch->slim, wrap->scratch->full, wrap->scratch->limb, 0.0f))
+		turn_to(wrap->cloth, &wrap->scratch->slim);
 	enter(wrap, WRAP_GROW, growing());
 	return true;
 }
@@ -107,6 +131,7 @@ static bool lay_marks(struct wrap *wrap)
 static void begin(struct wrap *wrap, struct cloth *cloth, const struct marks *marks)
 {
 	wrap->cloth = cloth;
+	wrap->scratch->full = cloth->body;
 	wrap->marks = marks;
 	wrap->frames = 0;
 	wrap->mark_error_rms_m = wrap->mark_error_max_m = 0.0f;
@@ -158,6 +183,22 @@ static void diagnose_unreached(struct wrap *wrap)
 			      "stays on the sheet.");
 }
 
+/* The slim body, at its growing, before the sweeps of the next step. */
+static float fill_share(const struct wrap *wrap)
+{
+	int step = wrap->stage == WRAP_FILL ? 1 + wrap->progress / FILL_SWEEPS : 0;
+	return (float)step / (float)FILL_STEPS;
+}
+
+/* A sweep; round a slim body cloth stays clear of hands and feet, which it does not meet. */
+static long sweep(struct wrap *wrap)
+{
+	long units = cloth_sweep(wrap->cloth);
+	if (wrap->cloth->body == &wrap->scratch->slim)
+		units += wrap_clear_hands(wrap, fill_share(wrap));
+	return units;
+}
+
 static long grow(struct wrap *wrap)
 {
 	if (wrap->progress % RING_SWEEPS == 0) {
@@ -168,10 +209,10 @@ static long grow(struct wrap *wrap)
 			return 1;
 		}
 		wrap->progress++;
-		return cloth_sweep(wrap->cloth) + 64L * placed;
+		return sweep(wrap) + 64L * placed;
 	}
 	wrap->progress++;
-	return cloth_sweep(wrap->cloth);
+	return sweep(wrap);
 }
 
 static void release_marks(struct wrap *wrap)
@@ -224,7 +265,7 @@ static void end_close(struct wrap *wrap)
 	if (!wrap->scratch->disagree)
 		diagnose_gaps(wrap, gap_held_m);
 	if (wrap_mend_marks(wrap)) {
-		cloth_reset(cloth, cloth->garment, cloth->body);
+		cloth_reset(cloth, cloth->garment, wrap->scratch->full);
 		lay_marks(wrap);
 		return;
 	}
@@ -233,6 +274,8 @@ static void end_close(struct wrap *wrap)
 		enter(wrap, WRAP_WELD, closing());
 		return;
 	}
+	turn_to(cloth, wrap->scratch->full);
+	wrap_let_out(wrap);
 	wrap_diagnose(wrap, "not-sewn", 0, 0,
 		      "The marks hold sewn edges too far apart; the seams stay open. Redraw the "
 		      "marks so that they fit the seams.");
@@ -261,7 +304,7 @@ static long close_up(struct wrap *wrap)
 		return 1;
 	}
 	wrap->progress++;
-	return cloth_sweep(wrap->cloth);
+	return sweep(wrap);
 }
 
 /* Some sweeps as one cloth. */
@@ -270,9 +313,32 @@ static long weld(struct wrap *wrap)
 	if (wrap->progress == 0)
 		cloth_join(wrap->cloth);
 	if (wrap->progress++ < WELD_SWEEPS)
-		return cloth_sweep(wrap->cloth);
-	enter(wrap, WRAP_UNFOLD, unfolding());
+		return sweep(wrap);
+	enter(wrap, WRAP_FILL, filling());
+	wrap_meet_all(wrap);
 	return 1;
+}
+
+/* The slim body grows into the garment; it ends as the body itself. */
+static long fill(struct wrap *wrap)
+{
+	struct wrap_scratch *s = wrap->scratch;
+	long units = 0;
+	if (wrap->cloth->body == s->full) {
+		wrap_let_out(wrap);
+		enter(wrap, WRAP_UNFOLD, unfolding());
+		return 1;
+	}
+	if (wrap->progress % FILL_SWEEPS == 0) {
+		float share = fill_share(wrap);
+		if (share < 1.0f)
+			body_slim_make(&s->slim, s->full, s->limb, share);
+		turn_to(wrap->cloth, share < 1.0f ? &s->slim : s->full);
+		units += s->full->triangle_count +
+			 LOOK_UNITS * (long)wrap->cloth->garment->vertex_count;
+	}
+	wrap->progress++;
+	return units + sweep(wrap);
 }
 
 /* Rounds of turning folds back, until there are none. */
@@ -350,6 +416,8 @@ long wrap_advance(struct wrap *wrap, long quota)
 			units += close_up(wrap);
 		else if (wrap->stage == WRAP_WELD)
 			units += weld(wrap);
+		else if (wrap->stage == WRAP_FILL)
+			units += fill(wrap);
 		else if (wrap->stage == WRAP_UNFOLD)
 			units += unfold(wrap);
 		else if (wrap->stage == WRAP_MOVE)

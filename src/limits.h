@@ -18,7 +18,7 @@
 
 /* One block for everything but the C library, GL and the window system: the body, and a share for
  * every vertex of the garment. `kitsuke help limits` says what is used of it. */
-#define KIOSK_MEMORY_BYTES (((size_t)48 << 20) + (size_t)3584 * GARMENT_VERTICES_MAX)
+#define KIOSK_MEMORY_BYTES (((size_t)64 << 20) + (size_t)4736 * GARMENT_VERTICES_MAX)
 
 enum {
 	FRAME_RATE_HZ = 60, /* frames are the only clock inside the program */

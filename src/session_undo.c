@@ -20,6 +20,7 @@ struct undo {
 	struct page *page;
 	struct v3 *position_m; /* a state on its way back to the cloth */
 	uint8_t *placed, *creased;
+	struct gather gather[PIECES_MAX];
 };
 
 struct undo *undo_init(struct arena *arena)
@@ -89,7 +90,7 @@ static void pass(struct stream *stream, void *data, size_t size)
 
 /* What a state is: document, garment, the cloth's places, and whether a wrap was under way. */
 static void pass_state(struct stream *stream, struct session *session, struct v3 *position_m,
-		       uint8_t *placed, uint8_t *creased, bool *wrapping)
+		       uint8_t *placed, uint8_t *creased, struct gather *gather, bool *wrapping)
 {
 	struct garment *garment = &session->garment;
 	PASS(stream, &session->document, 1);
@@ -116,6 +117,7 @@ static void pass_state(struct stream *stream, struct session *session, struct v3
 	PASS(stream, position_m, garment->vertex_count);
 	PASS(stream, placed, garment->vertex_count);
 	PASS(stream, creased, garment->vertex_count);
+	PASS(stream, gather, PIECES_MAX);
 }
 
 /* ---- the stock of pages ---- */
@@ -157,12 +159,14 @@ static void save(struct session *session, int next)
 	struct cloth *cloth = &session->cloth;
 	bool wrapping = session->job != JOB_NONE;
 	struct stream stream = {.undo = undo};
-	pass_state(&stream, session, cloth->position_m, cloth->placed, cloth->creased, &wrapping);
+	pass_state(&stream, session, cloth->position_m, cloth->placed, cloth->creased,
+		   cloth->piece_gather, &wrapping);
 	drop(undo, undo->now);
 	make_room(undo, stream.size, int_min(undo->now, next), int_max(undo->now, next));
 	stream.direction = WRITING;
 	stream.link = state_pages(undo, undo->now);
-	pass_state(&stream, session, cloth->position_m, cloth->placed, cloth->creased, &wrapping);
+	pass_state(&stream, session, cloth->position_m, cloth->placed, cloth->creased,
+		   cloth->piece_gather, &wrapping);
 }
 
 static void restore(struct session *session)
@@ -172,10 +176,13 @@ static void restore(struct session *session)
 	bool wrapping = false;
 	struct stream stream = {.undo = undo, .direction = READING};
 	stream.link = state_pages(undo, undo->now);
-	pass_state(&stream, session, undo->position_m, undo->placed, undo->creased, &wrapping);
+	pass_state(&stream, session, undo->position_m, undo->placed, undo->creased, undo->gather,
+		   &wrapping);
 	cloth_restore(cloth, &session->garment, &session->body, undo->position_m, undo->placed,
 		      cloth->welded, cloth->worn);
 	memcpy(cloth->creased, undo->creased, (size_t)session->garment.vertex_count);
+	memcpy(cloth->piece_gather, undo->gather, sizeof undo->gather);
+	cloth_take_gathers(cloth);
 	session_resume(session, wrapping);
 }
 

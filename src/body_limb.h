@@ -1,0 +1,37 @@
+/* A limb along its bones. */
+#ifndef BODY_LIMB_H
+#define BODY_LIMB_H
+
+#include "body.h"
+
+enum {
+	LIMB_SECTIONS = 64,
+	LIMB_SIDES = 16, /* round the bones */
+};
+
+#define LIMB_ENDLESS_M 1e9f
+
+/* Where a point lies beside a limb's bones. */
+struct beside {
+	struct v3 axis_m; /* nearest point of the bones, which go on straight beyond both ends */
+	struct v3 along;  /* their direction there */
+	float reach_m;    /* from the first bone's start to axis_m, along the bones */
+};
+
+struct limb_shape {
+	float hull_m[LIMB_SECTIONS][LIMB_SIDES]; /* farthest towards each side; 0: nothing seen */
+	float wrist_m; /* reach of the narrow place before hand or foot; or LIMB_ENDLESS_M */
+	float end_m;   /* reach of the tip */
+};
+
+/* False: the part has no bones. */
+bool body_beside(const struct body *body, int part, struct v3 p_m, struct beside *beside);
+
+/* Of arms and legs; the other parts stay empty. */
+void body_measure_limbs(const struct body *body, struct limb_shape limb[PART_COUNT]);
+
+/* How far from the bones the convex hull of the limb's section reaches in the direction of a point:
+ * a hand is as wide as a mitten. */
+float limb_hull(const struct limb_shape *limb, const struct beside *at, struct v3 p_m);
+
+#endif

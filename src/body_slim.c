@@ -1,0 +1,99 @@
+/* A body whose limbs are drawn in to their bones: places, normals and boxes; the rest is shared. */
+#include "body_slim.h"
+
+#include "body_limb.h"
+#include "body_private.h"
+#include "body_tree.h"
+
+static const float thin_share = 0.35f; /* of a limb's width that is left */
+static const float root_share = 0.12f; /* of a limb's length, in which it narrows */
+
+void body_slim_init(struct body *slim, struct arena *arena)
+{
+	memset(slim, 0, sizeof *slim);
+	slim->position_m = ARENA_ARRAY(arena, struct v3, BODY_VERTICES_MAX);
+	slim->normal = ARENA_ARRAY(arena, struct v3, BODY_VERTICES_MAX);
+	slim->face_normal = ARENA_ARRAY(arena, struct v3, BODY_TRIANGLES_MAX);
+	slim->node = ARENA_ARRAY(arena, struct bvh_node, BODY_NODES_MAX);
+	slim->near = near_tree_init(arena);
+	slim->part = ARENA_ARRAY(arena, uint8_t, BODY_TRIANGLES_MAX);
+	slim->prism = ARENA_ARRAY(arena, struct prism, BODY_TRIANGLES_MAX);
+	slim->clear = ARENA_ARRAY(arena, struct ball, BODY_TRIANGLES_MAX);
+	slim->corner_clear = ARENA_ARRAY(arena, struct ball, BODY_VERTICES_MAX);
+}
+
+/* Everything but what the slim body has of its own. */
+static void share_mesh(struct body *slim, const struct body *full)
+{
+	struct body own = *slim;
+	*slim = *full;
+	slim->position_m = own.position_m;
+	slim->normal = own.normal;
+	slim->face_normal = own.face_normal;
+	slim->node = own.node;
+	slim->near = own.near;
+	slim->prism = own.prism;
+	slim->clear = own.clear;
+	slim->corner_clear = own.corner_clear;
+	slim->part = own.part;
+	memcpy(slim->part, full->part, (size_t)full->triangle_count);
+	memcpy(slim->node, full->node, (size_t)full->node_count * sizeof *full->node);
+	memset(slim->clear, 0, (size_t)full->triangle_count * sizeof *slim->clear);
+	memset(slim->corner_clear, 0, (size_t)full->vertex_count * sizeof *slim->corner_clear);
+}
+
+static float length_of(const struct body *body, int part)
+{
+	float length_m = 0.0f;
+	for (int b = 0; b < body->bone_count; b++)
+		if ((int)body->bone[b].part == part)
+			length_m += v3_distance(body->bone[b].a_m, body->bone[b].b_m);
+	return length_m;
+}
+
+/* How much of its distance from the bones a limb's point keeps. */
+static float kept(float reach_m, float length_m)
+{
+	float in = float_clamp(reach_m / (root_share * length_m), 0.0f, 1.0f);
+	return 1.0f + in * (thin_share - 1.0f);
+}
+
+/* Hands and feet belong to no part that cloth may be asked to touch. */
+static void hide(struct body *slim, int v)
+{
+	for (int i = slim->star_first[v]; i < slim->star_first[v + 1]; i++)
+		slim->part[slim->star[i]] = PART_COUNT;
+}
+
+static void place(struct body *slim, const struct body *full, const struct limb_shape *limb,
+		  float share)
+{
+	float length_m[PART_COUNT];
+	for (int part = 0; part < PART_COUNT; part++)
+		length_m[part] = length_of(full, part);
+	for (int v = 0; v < full->vertex_count; v++) {
+		struct beside at;
+		struct v3 p = full->position_m[v];
+		int part = full->part[full->star[full->star_first[v]]];
+		slim->position_m[v] = p;
+		if (part < PART_ARM_LEFT || !body_beside(full, part, p, &at))
+			continue;
+		if (at.reach_m > limb[part].wrist_m)
+			hide(slim, v);
+		float thin = kept(at.reach_m, length_m[part]);
+		slim->position_m[v] = v3_lerp(at.axis_m, p, thin + share * (1.0f - thin));
+	}
+}
+
+bool body_slim_make(struct body *slim, const struct body *full, const struct limb_shape *limb,
+		    float share)
+{
+	if (full->bone_count == 0)
+		return false;
+	share_mesh(slim, full);
+	place(slim, full, limb, share);
+	body_build_normals(slim);
+	body_build_prisms(slim);
+	body_refit(slim);
+	return true;
+}
