@@ -64,12 +64,12 @@ struct cloth {
 	unsigned piece_parts[PIECES_MAX]; /* bit set of enum body_part; 0: all */
 	bool piece_drawn[PIECES_MAX];     /* attract_m works on this piece */
 	struct gather piece_gather[PIECES_MAX];
-	int *particle;                    /* per vertex: itself, or weld[] once welded */
-	struct triangle *triangle;        /* through particle[] */
-	int *star_first; /* per particle + 1: its corners are star[star_first[v] ..], */
-	int *star;       /* triangle * 4 + corner */
-	int *ring;       /* 2 per entry of star: the triangle's next particle and the one after */
-	int flat_count;  /* edges of two triangles */
+	int *particle;             /* per vertex: itself, or weld[] once welded */
+	struct triangle *triangle; /* through particle[] */
+	int *star_first;           /* per particle + 1: its corners are star[star_first[v] ..], */
+	int *star;                 /* triangle * 4 + corner */
+	int *ring;      /* 2 per entry of star: the triangle's next particle and the one after */
+	int flat_count; /* edges of two triangles */
 	struct flat *flat;
 	int fabric;        /* fabric_at: what a worn garment is made of */
 	int lanes;         /* 1, 4 or 8: numbers that the processor works at once; same bits */

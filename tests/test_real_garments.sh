@@ -42,6 +42,14 @@ equal head_through_collar true teagan
 equal arms_in_sleeves 2 teagan
 below seam_gap_mm_max 0.001 teagan
 
+# Sleeves half as long again as a child's arms end above its hands, gathered, and the report says so.
+dress brian_cisFemaleAdult34 tests/marks/brian.marks mh_child_female
+equal arms_in_sleeves 2 brian
+equal head_through_collar true brian
+below strain_p95 0.05 brian
+below strain_max 0.25 brian
+grep -q '"gathered"' "$folder/report.json" || fail "brian: gathered sleeves are not reported"
+
 # A skirt hangs from its waistband round both legs, marked by hand or by a guess.
 for marks in tests/marks/penelope.marks guess; do
   dress penelope_cisFemaleAdult34 "$marks" mh_female_young_average

@@ -1,0 +1,124 @@
+/* The slim body: what is thin, what stays, what no piece can be asked to touch; limbs' shapes. */
+#include "body_slim.h"
+#include "test.h"
+
+static struct body body, slim;
+static struct limb_shape limb[PART_COUNT];
+
+static int part_of(int v)
+{
+	return body.part[body.star[body.star_first[v]]];
+}
+
+/* Where the lower arm is round, a mitten begins at its end, on both sides alike. */
+static void test_limbs(void)
+{
+	for (int part = PART_ARM_LEFT; part < PART_COUNT; part++) {
+		CHECK(limb[part].wrist_m > 0.5f * limb[part].end_m);
+		CHECK(limb[part].wrist_m < 0.9f * limb[part].end_m);
+	}
+	CHECK_NEAR(limb[PART_ARM_LEFT].wrist_m, limb[PART_ARM_RIGHT].wrist_m, 0.021);
+	CHECK_NEAR(limb[PART_LEG_LEFT].end_m, limb[PART_LEG_RIGHT].end_m, 0.01);
+	CHECK(limb[PART_TRUNK].end_m == 0.0f);
+}
+
+/* Nothing of a limb lies outside the hull of its sections. */
+static void test_hull(void)
+{
+	int seen = 0;
+	for (int v = 0; v < body.vertex_count; v++) {
+		struct beside at;
+		int part = part_of(v);
+		struct v3 p_m = body.position_m[v];
+		if (part < PART_ARM_LEFT || !body_beside(&body, part, p_m, &at) ||
+		    at.reach_m < 0.0f)
+			continue;
+		seen++;
+		CHECK(v3_distance(p_m, at.axis_m) < limb_hull(&limb[part], &at, p_m) + 0.001f);
+	}
+	CHECK(seen > 1000);
+}
+
+static void test_thin(void)
+{
+	int thin = 0, hidden = 0;
+	CHECK(body_slim_make(&slim, &body, limb, 0.0f));
+	for (int v = 0; v < body.vertex_count; v++) {
+		struct beside at;
+		int part = part_of(v);
+		struct v3 p_m = body.position_m[v];
+		float moved_m = v3_distance(p_m, slim.position_m[v]);
+		if (part < PART_ARM_LEFT) {
+			CHECK(moved_m == 0.0f);
+			continue;
+		}
+		body_beside(&body, part, p_m, &at);
+		float left = v3_distance(slim.position_m[v], at.axis_m) /
+			     float_max(v3_distance(p_m, at.axis_m), 1e-6f);
+		CHECK(left < 1.001f);
+		thin += left < 0.4f;
+		if (at.reach_m <= limb[part].wrist_m)
+			continue;
+		hidden++;
+		CHECK(slim.part[slim.star[slim.star_first[v]]] == PART_COUNT);
+	}
+	CHECK(thin > 1000 && hidden > 500);
+}
+
+/* Who asks for all parts by name finds an arm where the hand was; who asks for anything, the hand.
+ */
+static void test_hidden(void)
+{
+	const struct bone *last = NULL;
+	for (int b = 0; b < body.bone_count; b++)
+		if (body.bone[b].part == PART_ARM_LEFT)
+			last = &body.bone[b];
+	struct body_hit named, any;
+	body_nearest(&slim, last->b_m, (1u << PART_COUNT) - 1, &named);
+	body_nearest(&slim, last->b_m, 0, &any);
+	CHECK(slim.part[named.triangle] < PART_COUNT);
+	CHECK(slim.part[any.triangle] == PART_COUNT);
+}
+
+/* Step by step it becomes the body, and the tree with it. */
+static void test_grown(void)
+{
+	static const float share[] = {0.3f, 0.7f, 1.0f};
+	for (int i = 0; i < COUNT_OF(share); i++) {
+		CHECK(body_slim_make(&slim, &body, limb, share[i]));
+		for (int v = 0; v < body.vertex_count; v += 7) {
+			struct body_hit hit;
+			body_nearest(&slim, slim.position_m[v], 0, &hit);
+			CHECK(float_abs(hit.distance_m) < 1e-5f);
+			if (share[i] == 1.0f)
+				CHECK(v3_distance(slim.position_m[v], body.position_m[v]) < 1e-5f);
+		}
+	}
+}
+
+/* A body without bones has nothing to draw in. */
+static void test_boneless(void)
+{
+	body.bone_count = 0;
+	CHECK(!body_slim_make(&slim, &body, limb, 0.0f));
+}
+
+int main(void)
+{
+	enum { BYTES = 128 << 20 };
+	struct arena arena;
+	void *memory = malloc(BYTES);
+	arena_init(&arena, memory, BYTES);
+	body_init(&body, &arena);
+	body_slim_init(&slim, &arena);
+	CHECK(!body_build_mannequin(&body) && body_find_parts(&body));
+	body_measure_limbs(&body, limb);
+	test_limbs();
+	test_hull();
+	test_thin();
+	test_hidden();
+	test_grown();
+	test_boneless();
+	free(memory);
+	return test_end();
+}
