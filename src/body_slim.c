@@ -76,9 +76,9 @@ static void place(struct body *slim, const struct body *full, const struct limb_
 		struct v3 p = full->position_m[v];
 		int part = full->part[full->star[full->star_first[v]]];
 		slim->position_m[v] = p;
-		if (part < PART_ARM_LEFT || !body_beside(full, part, p, &at))
+		if (part == PART_TRUNK || !body_beside(full, part, p, &at))
 			continue;
-		if (at.reach_m > limb[part].wrist_m)
+		if (part >= PART_ARM_LEFT && at.reach_m > limb[part].wrist_m)
 			hide(slim, v);
 		float thin = kept(at.reach_m, length_m[part]);
 		slim->position_m[v] = v3_lerp(at.axis_m, p, thin + share * (1.0f - thin));
