@@ -72,6 +72,8 @@ void cloth_init(struct cloth *cloth, struct arena *arena)
 	s->smooth_m = ARENA_ARRAY(arena, struct v3, GARMENT_VERTICES_MAX);
 	s->across = ARENA_ARRAY(arena, int, 3 * GARMENT_TRIANGLES_MAX);
 	s->facing = ARENA_ARRAY(arena, uint8_t, GARMENT_TRIANGLES_MAX);
+	s->taut = ARENA_ARRAY(arena, int, GARMENT_TRIANGLES_MAX);
+	s->clamped = ARENA_ARRAY(arena, int, GARMENT_TRIANGLES_MAX);
 	s->turned = ARENA_ARRAY(arena, uint8_t, GARMENT_TRIANGLES_MAX);
 	s->in_patch = ARENA_ARRAY(arena, uint8_t, GARMENT_TRIANGLES_MAX);
 	s->patch = ARENA_ARRAY(arena, int, GARMENT_TRIANGLES_MAX);
@@ -103,6 +105,7 @@ struct cloth_settings cloth_settings_worn(void)
 		.flatness = 0.02f,
 		.shear = 1.0f,
 		.reach = 1.0f,
+		.strain_bound = 0.15f,
 		.momentum = 0.9f,
 		.gravity_m = 20e-6f,
 		.friction = 0.2f,
@@ -363,6 +366,7 @@ static long sweep(struct cloth *cloth)
 	if (cloth->settings.faces)
 		units += cloth_contact_faces(cloth, cloth->sweep % FACE_SLICES, FACE_SLICES);
 	units += cloth_contact(cloth);
+	units += cloth_clamp(cloth);
 	units += cloth_self_order(cloth);
 	cloth->sweep++;
 	return units;

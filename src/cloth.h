@@ -27,23 +27,24 @@ struct gather {
 };
 
 struct cloth_settings {
-	float shape;       /* 0..1: share of a triangle's way back to its rest shape */
-	int shape_passes;  /* over all triangles in one sweep */
-	float flatness;    /* 0..1 */
-	float shear;       /* 0..1: share of a triangle's shear that counts as a fault */
-	float reach;       /* 0..1: share of a taut coarse link's excess taken in one pass */
-	float momentum;    /* 0..1: share of the last step carried on */
-	float gravity_m;   /* displacement a sweep */
-	float friction;    /* 0..1: share of tangential motion lost in contact */
-	float grip;        /* Coulomb: motion shorter than this times the push is lost wholly */
-	float offset_m;    /* cloth stays this far outside the body */
-	float step_max_m;  /* bound on a particle's motion in one sweep */
-	float seam_step_m; /* bound on the closing of a seam in one sweep; 0: seams don't pull */
-	float attract_m;   /* pull of drawn pieces to a body farther than 35 mm; 0: none */
-	bool filter_parts; /* each piece only meets the body parts that piece_parts allows */
-	bool faces;        /* also keep edge midpoints and triangle centres outside */
-	bool open;         /* folds that are not wanted turn back */
-	float thickness_m; /* cloth stays this far from other cloth; 0: passes through it */
+	float shape;        /* 0..1: share of a triangle's way back to its rest shape */
+	int shape_passes;   /* over all triangles in one sweep */
+	float flatness;     /* 0..1 */
+	float shear;        /* 0..1: share of a triangle's shear that counts as a fault */
+	float reach;        /* 0..1: share of a taut coarse link's excess taken in one pass */
+	float strain_bound; /* a triangle's largest strain after a sweep's shaping; 0: none */
+	float momentum;     /* 0..1: share of the last step carried on */
+	float gravity_m;    /* displacement a sweep */
+	float friction;     /* 0..1: share of tangential motion lost in contact */
+	float grip;         /* Coulomb: motion shorter than this times the push is lost wholly */
+	float offset_m;     /* cloth stays this far outside the body */
+	float step_max_m;   /* bound on a particle's motion in one sweep */
+	float seam_step_m;  /* bound on the closing of a seam in one sweep; 0: seams don't pull */
+	float attract_m;    /* pull of drawn pieces to a body farther than 35 mm; 0: none */
+	bool filter_parts;  /* each piece only meets the body parts that piece_parts allows */
+	bool faces;         /* also keep edge midpoints and triangle centres outside */
+	bool open;          /* folds that are not wanted turn back */
+	float thickness_m;  /* cloth stays this far from other cloth; 0: passes through it */
 };
 
 struct cloth {

@@ -157,6 +157,7 @@ static void forget_faces(struct cloth *cloth)
 	memset(s->turned, 0, (size_t)cloth->garment->triangle_count);
 	memset(s->swung_in, 0, (size_t)cloth->garment->vertex_count * sizeof *s->swung_in);
 	memset(s->face_quiet, 0, (size_t)cloth->garment->triangle_count * sizeof *s->face_quiet);
+	s->taut_count = s->next_taut_count = 0;
 	s->open_count = s->facing_in = s->swing = 0;
 }
 

@@ -148,6 +148,10 @@ struct cloth_scratch {
 			      */
 	uint8_t *stiff;      /* per particle: lay in a fold that was turned back, so bends less */
 
+	/* triangles near the bound of strain (cloth_clamp.c): in this round, and to be clamped */
+	int *taut, *clamped;
+	int next_taut_count, taut_count;
+
 	/* folds that open (cloth_hinge.c) */
 	uint8_t *facing, *in_patch; /* per triangle */
 	uint8_t *turned;            /* per triangle: rounds since it last faced out */
@@ -220,6 +224,7 @@ void cloth_take_levels(struct cloth *cloth);
 long cloth_levels(struct cloth *cloth);  /* taut cloth pulls, coarse levels first */
 long cloth_shape(struct cloth *cloth);   /* triangles and edges to their rest shapes */
 long cloth_hinges(struct cloth *cloth);  /* folds turn back */
+long cloth_clamp(struct cloth *cloth);   /* no triangle beyond strain_bound */
 long cloth_contact(struct cloth *cloth); /* vertices out of the body, friction */
 long cloth_contact_faces(struct cloth *cloth, int slice, int slices); /* midpoints and centres */
 

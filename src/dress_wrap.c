@@ -51,6 +51,7 @@ static struct cloth_settings growing(void)
 	set.filter_parts = true;
 	set.faces = false;
 	set.open = false;
+	set.strain_bound = 0.0f;
 	set.thickness_m = 0.0f; /* what lies over itself is still to come apart */
 	set.seam_step_m = 0.0f;
 	set.attract_m = 0.001f;

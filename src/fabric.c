@@ -34,6 +34,7 @@ struct cloth_settings fabric_settings(const struct cloth_settings *stage, int in
 	struct cloth_settings set = *stage;
 	set.shape *= fabric->stretch;
 	set.reach *= fabric->stretch;
+	set.strain_bound /= fabric->stretch;
 	set.shear *= fabric->shear;
 	set.flatness = float_min(set.flatness * fabric->bend, float_max(set.flatness, most_share));
 	set.gravity_m *= fabric->weight;

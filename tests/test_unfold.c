@@ -205,12 +205,12 @@ static const struct fold_case cases[] = {
 	{"hem turned up", 0.15f, 1.05f, 0.4f, 900, hem, 0.04f, 0.003f, 30, false},
 	{"hem folded flat", 0.15f, 1.05f, 0.4f, 900, hem, 0.04f, 0.0f, 30, false},
 	{"hem turned in", 0.15f, 1.05f, 0.4f, 900, hem, 0.04f, -0.003f, 30, false},
-	{"pleat upwards", 0.15f, 0.0f, 0.4f, 900, zigzag, 0.2f, 0.002f, 60, false},
-	{"pleat flat", 0.15f, 0.0f, 0.4f, 900, zigzag, 0.2f, 0.0f, 60, false},
-	{"pleat inwards", 0.15f, 0.0f, 0.4f, 900, zigzag, 0.2f, -0.002f, 60, false},
+	{"pleat upwards", 0.15f, 0.0f, 0.4f, 900, zigzag, 0.2f, 0.002f, 240, false},
+	{"pleat flat", 0.15f, 0.0f, 0.4f, 900, zigzag, 0.2f, 0.0f, 240, false},
+	{"pleat inwards", 0.15f, 0.0f, 0.4f, 900, zigzag, 0.2f, -0.002f, 240, false},
 	{"patch mirrored", 0.15f, 0.0f, 0.4f, 900, mirrored, 0.2f, 0.0f, 60, false},
 	{"front turned up", 0.15f, 0.0f, 0.4f, 900, hem, 0.2f, 0.004f, 60, false},
-	{"piece inside out", 0.15f, 0.0f, 0.4f, 900, inside_out, 0.35f, 0.0f, 300, true},
+	{"piece inside out", 0.15f, 0.0f, 0.4f, 900, inside_out, 0.35f, 0.0f, 400, true},
 };
 
 static void dress(const struct fold_case *c, struct v3 (*fold)(struct v2 p))

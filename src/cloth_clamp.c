@@ -1,0 +1,102 @@
+/* A bound on strain. Where contact pushes single particles and friction holds them, shape matching
+ * and contact undo each other's work in every sweep, and the strain stays in a few triangles, at a
+ * seam's end or over a bone. So after contact these go back to the bound, wholly and without
+ * friction, and out of the body again: their neighbours follow, and the strain spreads out. */
+#include "cloth_private.h"
+
+enum {
+	SLICES = 10, /* a frame's sweeps: all triangles once a frame */
+	PASSES = 3,
+	LOOK_UNITS = 1,
+	CLAMP_UNITS = 2,
+};
+
+static const float move_most_m = 0.001f; /* of a corner in a pass */
+static const float calm_m = 0.002f;      /* farther in a sweep: it moves */
+static const float watch_share = 0.8f;   /* of the bound: from there on a triangle is worked */
+
+/* Cloth that still moves may be on its way round a limb, and is let go its way. */
+static bool is_free(const struct cloth *cloth, int v)
+{
+	struct v3 step = v3_sub(cloth->position_m[v], cloth->previous_m[v]);
+	return cloth->held[v] < 2 && v3_dot(step, step) < calm_m * calm_m;
+}
+
+/* What is clamped slides: friction has no part in it, and no momentum comes of it. */
+static void move(struct cloth *cloth, int v, struct v3 way)
+{
+	if (!is_free(cloth, v))
+		return;
+	cloth->position_m[v] = v3_add(cloth->position_m[v], way);
+	cloth->previous_m[v] = v3_add(cloth->previous_m[v], way);
+}
+
+/* Takes the larger principal stretch of triangle t back to the bound; its centre rests. With F =
+ * [e1 e2] [u1 u2]^-1 and v the direction on the flat cloth that F stretches most, the edges change
+ * by (bound / stretch - 1) F v (v . u). */
+static void clamp(struct cloth *cloth, int t, float bound)
+{
+	const struct garment *garment = cloth->garment;
+	const int *r = garment->triangle[t].v, *p = cloth->triangle[t].v;
+	const struct v3 *x = cloth->position_m;
+	struct v2 u1 = v2_sub(garment->rest_m[r[1]], garment->rest_m[r[0]]);
+	struct v2 u2 = v2_sub(garment->rest_m[r[2]], garment->rest_m[r[0]]);
+	struct v3 e1 = v3_sub(x[p[1]], x[p[0]]), e2 = v3_sub(x[p[2]], x[p[0]]);
+	float area = float_max(v2_cross(u1, u2), 1e-10f);
+	struct v3 fx = v3_scale(v3_mad(v3_scale(e1, u2.y), e2, -u1.y), 1.0f / area);
+	struct v3 fy = v3_scale(v3_mad(v3_scale(e2, u1.x), e1, -u2.x), 1.0f / area);
+	float xx = v3_dot(fx, fx), yy = v3_dot(fy, fy), xy = v3_dot(fx, fy);
+	float half = 0.5f * (xx - yy), root = sqrtf(half * half + xy * xy);
+	float most = sqrtf(0.5f * (xx + yy) + root);
+	if (most <= bound)
+		return;
+	struct v2 way = half > 0.0f ? (struct v2){half + root, xy} : (struct v2){xy, root - half};
+	way = v2_normalize(way);
+	struct v3 back = v3_scale(v3_mad(v3_scale(fx, way.x), fy, way.y), bound / most - 1.0f);
+	float along_1 = v2_dot(way, u1), along_2 = v2_dot(way, u2);
+	float middle = (along_1 + along_2) * (1.0f / 3.0f);
+	float farthest = float_max(float_abs(middle), float_max(float_abs(along_1 - middle),
+								float_abs(along_2 - middle)));
+	back = v3_scale(
+		back, float_min(1.0f, move_most_m / float_max(farthest * v3_length(back), 1e-9f)));
+	move(cloth, p[0], v3_scale(back, -middle));
+	move(cloth, p[1], v3_scale(back, along_1 - middle));
+	move(cloth, p[2], v3_scale(back, along_2 - middle));
+}
+
+/* Those of a slice that are near the bound. */
+static void watch(struct cloth *cloth, int slice, float least)
+{
+	struct cloth_scratch *s = cloth->scratch;
+	for (int t = slice; t < cloth->garment->triangle_count; t += SLICES)
+		if (triangle_placed(cloth, t) && cloth_stretch(cloth, t) > least)
+			s->taut[s->next_taut_count++] = t;
+	if (slice < SLICES - 1)
+		return;
+	s->taut_count = s->next_taut_count;
+	memcpy(s->clamped, s->taut, (size_t)s->taut_count * sizeof *s->taut);
+	s->next_taut_count = 0;
+}
+
+long cloth_clamp(struct cloth *cloth)
+{
+	struct cloth_scratch *s = cloth->scratch;
+	float bound = cloth->settings.strain_bound;
+	long units = LOOK_UNITS * (cloth->garment->triangle_count / SLICES);
+	if (bound <= 0.0f)
+		return 0;
+	for (int pass = 0; pass < PASSES; pass++) {
+		for (int i = 0; i < s->taut_count; i++) {
+			int t = s->clamped[pass & 1 ? s->taut_count - 1 - i : i];
+			clamp(cloth, t, 1.0f + bound);
+		}
+		for (int i = 0; i < 3 * s->taut_count; i++) {
+			int v = cloth->triangle[s->clamped[i / 3]].v[i % 3];
+			if (is_free(cloth, v))
+				units += cloth_touch(cloth, v);
+		}
+		units += CLAMP_UNITS * (long)s->taut_count;
+	}
+	watch(cloth, cloth->sweep % SLICES, watch_share * bound);
+	return units;
+}
