@@ -79,15 +79,6 @@ static bool is_calm(const struct session *session)
 	return moved < calm_m * (float)count;
 }
 
-/* Cloth is pinned to be gathered or rolled up: folds are wanted then. */
-static bool is_pinned(const struct session *session)
-{
-	bool pinned = false;
-	for (int p = 0; p < PINS_MAX; p++)
-		pinned |= session->document.pin[p].used;
-	return pinned;
-}
-
 static bool touched(const struct session *session)
 {
 	return session->drag.active || session->relaxing;
@@ -123,7 +114,7 @@ static bool refine_still(struct session *session, long *units)
 static void unfold_slice(struct session *session, int slice, long *units)
 {
 	bool tangled = session->unfolds < UNTANGLES_MAX && cloth_crossings(&session->cloth) > 0;
-	bool folded = session->unfolds < UNFOLDS_MAX && !is_pinned(session) &&
+	bool folded = session->unfolds < UNFOLDS_MAX &&
 		      cloth_unfold(&session->cloth, slice, STILL_SLICES, units) > 0;
 	if (slice < STILL_SLICES - 1)
 		return;
