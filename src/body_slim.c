@@ -1,4 +1,5 @@
-/* A body whose limbs are drawn in to their bones: places, normals and boxes; the rest is shared. */
+/* A body whose limbs, head and neck are drawn in to their bones: places, normals and boxes; the
+ * rest is shared. */
 #include "body_slim.h"
 
 #include "body_limb.h"
