@@ -9,9 +9,9 @@ enum {
 	CLOSE_SWEEPS = 80,
 	RELEASE_SWEEPS = 30, /* still closing, but the marks have let go */
 	LATE_SWEEPS = 110,   /* the same when seams are late */
-	WELD_SWEEPS = 10,
-	FILL_STEPS = 8,  /* of the body */
-	FILL_SWEEPS = 4, /* a step */
+	WELD_SWEEPS = 12,
+	FILL_STEPS = 9,  /* of the body */
+	FILL_SWEEPS = 3, /* a step */
 	UNFOLD_ROUNDS = 6,
 	UNFOLD_SWEEPS = 16,
 	SETTLE_SWEEPS = 64,

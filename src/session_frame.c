@@ -172,6 +172,8 @@ static struct cloth_settings settings_now(const struct session *session)
 		return cloth_settings_relax();
 	struct cloth_settings settings = cloth_settings_worn();
 	settings.open = !session->drag.active;
+	if (session->drag.active)
+		settings.strain_bound = 0.0f; /* what slides by it would not follow the hand */
 	int cooling = session->untouched_frames - COOL_FRAMES;
 	float warmth = 1.0f - (float)cooling / (float)(SLEEP_FRAMES - COOL_FRAMES);
 	settings.momentum *= float_clamp(warmth, 0.0f, 1.0f);
