@@ -1,7 +1,7 @@
 /* Sleeves and trouser legs that are longer than their limb: they are laid, sewn and worn gathered
  * along it, so that they end above hand or foot. A little too much gets its length back once the
  * garment is on, and lies in wrinkles; more would fold over itself at this size of triangles, so it
- * stays gathered, and the report says how much. */
+ * stays gathered, and the report says so. */
 #include "dress_private.h"
 
 #define UNDECIDED 0.0f /* share of a piece that may be gathered */

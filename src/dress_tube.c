@@ -91,11 +91,12 @@ long wrap_clear_hands(struct wrap *wrap, float share)
 		struct beside at;
 		struct v3 *p = &cloth->position_m[v];
 		int home = wrap->scratch->home[cloth->garment->piece[v]];
-		const struct limb_shape *limb = &wrap->scratch->limb[home];
 		if (!is_particle(cloth, v) || home < PART_ARM_LEFT ||
-		    !body_beside(cloth->body, home, *p, &at) || at.reach_m < limb->wrist_m)
+		    !body_beside(cloth->body, home, *p, &at))
 			continue;
-		*p = clear_hand(limb, &at, *p, of_hull, cloth->settings.offset_m);
+		const struct limb_shape *limb = &wrap->scratch->limb[home];
+		if (at.reach_m >= limb->wrist_m)
+			*p = clear_hand(limb, &at, *p, of_hull, cloth->settings.offset_m);
 	}
 	return cloth->garment->vertex_count;
 }
