@@ -73,5 +73,7 @@ int main(int argc, char **argv)
 	for (int i = 2; i < argc; i++)
 		fine &= play(kiosk, memory, argv[i]);
 	threads_stop(&threads);
+	free(memory);
+	free(kiosk);
 	return fine ? EXIT_SUCCESS : EXIT_FAILURE;
 }
