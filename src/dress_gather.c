@@ -33,20 +33,23 @@ static float room(const struct wrap *wrap, int home, struct v3 p_m)
 static float measure(struct wrap *wrap, const struct cloth_mark *mark, const struct body_mark *on)
 {
 	struct wrap_scratch *s = wrap->scratch;
-	int home = s->home[mark->piece], count = mark->point_count, points = on->point_count;
-	float body_m = wrap_body_line(wrap, on), cloth_m = wrap_cloth_line(wrap, mark);
-	struct v2 begin = {s->cloth_line_m[0].x, s->cloth_line_m[0].y};
-	struct v2 end = {s->cloth_line_m[count - 1].x, s->cloth_line_m[count - 1].y};
+	const struct mark_line *cloth = &s->on_cloth, *body = &s->on_body;
+	int home = s->home[mark->piece];
+	wrap_body_line(wrap, on);
+	wrap_cloth_line(wrap, mark);
+	struct v3 first_m = cloth->point_m[0], last_m = cloth->point_m[cloth->count - 1];
+	struct v2 begin = {first_m.x, first_m.y}, end = {last_m.x, last_m.y};
 	struct v2 along = v2_normalize(v2_sub(end, begin));
-	float room_m = room(wrap, home, s->mark_point_m[0]);
-	float end_m = room(wrap, home, s->mark_point_m[points - 1]);
+	float room_m = room(wrap, home, body->point_m[0]);
+	float end_m = room(wrap, home, body->point_m[body->count - 1]);
 	if (room_m > 0.5f * LIMB_ENDLESS_M || end_m > room_m)
 		return 1.0f; /* it does not run down the limb */
 	if (wrap->cloth->piece_gather[mark->piece].share == 1.0f)
 		wrap->cloth->piece_gather[mark->piece] = (struct gather){
 			along, v2_dot(begin, along), UNDECIDED};
-	cloth_m += end_of(wrap->cloth->garment, mark->piece, along) - v2_dot(end, along);
-	return (body_m + end_m - bare_m) / float_max(cloth_m, 1e-3f);
+	float cloth_m = cloth->length_m + end_of(wrap->cloth->garment, mark->piece, along) -
+			v2_dot(end, along);
+	return (body->length_m + end_m - bare_m) / float_max(cloth_m, 1e-3f);
 }
 
 /* The seam's direction between pair i and the next, on the sides of two pieces. False: the pair

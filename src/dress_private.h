@@ -12,6 +12,15 @@ enum {
 	TUBE_SECTIONS = 64,
 }; /* a home nowhere on the body */
 
+/* A mark as it is laid: steadied, walked in equal steps. On cloth it is flat, z = 0, and has no
+ * normals. */
+struct mark_line {
+	int count;
+	float length_m;
+	struct v3 point_m[MARK_POINTS_MAX], normal[MARK_POINTS_MAX];
+	float along_m[MARK_POINTS_MAX];
+};
+
 struct wrap_scratch {
 	const struct body *full; /* to be dressed */
 	struct body slim;        /* that the garment is laid and sewn round */
@@ -23,9 +32,8 @@ struct wrap_scratch {
 	uint8_t *seeded;                         /* per piece: a mark lies on it */
 	struct v3 *sum_m;                        /* per vertex: predictions of a ring */
 	int *count;
-	int *edge_first;    /* per vertex + 1: triangles on edges whose lower vertex it is */
-	int *edge_triangle; /* triangle * 3 + corner */
-	float along_m[MARK_POINTS_MAX];
+	int *edge_first;           /* per vertex + 1: triangles on edges whose lower vertex it is */
+	int *edge_triangle;        /* triangle * 3 + corner */
 	bool from_drape;           /* no marks laid it */
 	int partner[MARK_NUMBERS]; /* per cloth mark's number: the body mark's; 0: let go */
 	bool mended;               /* marks were let go or swapped */
@@ -33,8 +41,7 @@ struct wrap_scratch {
 	float off_m;               /* how far it was at the last look */
 	bool disagree;             /* the marks were found to pull seams apart */
 	int rounds;                /* folds turned back so far */
-	struct v3 mark_point_m[MARK_POINTS_MAX], mark_normal[MARK_POINTS_MAX];
-	struct v3 cloth_line_m[MARK_POINTS_MAX]; /* the cloth's line, flat: z = 0 */
+	struct mark_line on_body, on_cloth;
 	struct v3 drawn[MARK_POINTS_MAX];
 };
 
@@ -75,14 +82,17 @@ void wrap_measure_tubes(struct wrap *wrap);
 /* The place of a vertex, or where it lies in a tube that is wider than its limb. */
 struct v3 wrap_widened(const struct wrap *wrap, int v, struct v3 p_m);
 
-/* The points of a mark, steadied, into mark_point_m and mark_normal with along_m, or flat into
- * cloth_line_m. Both return the line's length in metres. */
-float wrap_body_line(struct wrap *wrap, const struct body_mark *mark);
-float wrap_cloth_line(struct wrap *wrap, const struct cloth_mark *mark);
+/* Makes scratch->on_body, on the surface, and scratch->on_cloth. */
+void wrap_body_line(struct wrap *wrap, const struct body_mark *mark);
+void wrap_cloth_line(struct wrap *wrap, const struct cloth_mark *mark);
 
 /* Moves sleeves and trouser legs out of the hull of hands and feet. share 0: the limb is slim, 1:
  * it is whole. Returns the units spent. */
 long wrap_clear_hands(struct wrap *wrap, float share);
+
+/* Moves what a seam joins across a bone round that bone (dress_close.c). Returns the units spent.
+ */
+long wrap_close_round(struct wrap *wrap);
 
 /* Every piece meets every part of the body from now on. */
 void wrap_meet_all(struct wrap *wrap);
@@ -104,9 +114,16 @@ void wrap_mark_error(struct wrap *wrap);
 void wrap_grow_init(struct wrap *wrap);
 int wrap_grow_ring(struct wrap *wrap);
 
-/* A line of `count` points drawn by hand, steadied, into `steady` (not the same array). length_m 0:
- * measured on the line itself. */
-void wrap_steady_line(const struct v3 *point, int count, float length_m, struct v3 *steady);
+/* A line of `count` points drawn by hand, steadied, into `steady` (not the same array). `normal`:
+ * of the surface that it was drawn on, or NULL on flat cloth. */
+void wrap_steady_line(const struct v3 *point, const struct v3 *normal, int count,
+		      struct v3 *steady);
+/* The normals along a line of that length, likewise. */
+void wrap_steady_normals(const struct v3 *normal, int count, float length_m, struct v3 *steady);
+
+/* Equal steps along a line, from its first point to its last, into walk[MARK_POINTS_MAX]; returns
+ * their number. Not the same array. */
+int wrap_walk_line(const struct v3 *point, int count, struct v3 *walk);
 
 /* Brings a drape from elsewhere to size, right side out and out of the body (dress_start.c). */
 void wrap_mend_start(struct wrap *wrap);

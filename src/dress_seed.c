@@ -71,95 +71,102 @@ static void leave_cleft(const struct body *body, struct body_hit *hit)
 	}
 }
 
-/* The body's line without the hand's tremor: steadied and laid back onto the surface. */
-float wrap_body_line(struct wrap *wrap, const struct body_mark *mark)
+/* Arc lengths of a line's points. */
+static void measure_line(struct mark_line *line)
+{
+	line->along_m[0] = 0.0f;
+	for (int i = 1; i < line->count; i++)
+		line->along_m[i] = line->along_m[i - 1] +
+				   v3_distance(line->point_m[i - 1], line->point_m[i]);
+	line->length_m = line->along_m[line->count - 1];
+}
+
+/* The body's line without the hand's tremor, laid back onto the surface. */
+void wrap_body_line(struct wrap *wrap, const struct body_mark *mark)
 {
 	struct wrap_scratch *s = wrap->scratch;
-	int count = mark->point_count;
-	wrap_steady_line(mark->point_m, count, 0.0f, s->mark_point_m);
-	for (int i = 0; i < count; i++) {
+	struct mark_line *line = &s->on_body;
+	wrap_steady_line(mark->point_m, mark->normal, mark->point_count, s->drawn);
+	line->count = wrap_walk_line(s->drawn, mark->point_count, line->point_m);
+	for (int i = 0; i < line->count; i++) {
 		struct body_hit hit;
-		body_nearest(wrap->cloth->body, s->mark_point_m[i], 0, &hit);
+		body_nearest(wrap->cloth->body, line->point_m[i], 0, &hit);
 		leave_cleft(wrap->cloth->body, &hit);
 		s->drawn[i] = hit.normal;
-		s->mark_point_m[i] = hit.point_m;
-		s->along_m[i] = i == 0 ? 0.0f
-				       : s->along_m[i - 1] +
-						 v3_distance(s->mark_point_m[i - 1], hit.point_m);
+		line->point_m[i] = hit.point_m;
 	}
-	wrap_steady_line(s->drawn, count, s->along_m[count - 1], s->mark_normal);
-	return s->along_m[count - 1];
+	measure_line(line);
+	wrap_steady_normals(s->drawn, line->count, line->length_m, line->normal);
 }
 
 /* The cloth's line, likewise. */
-float wrap_cloth_line(struct wrap *wrap, const struct cloth_mark *mark)
+void wrap_cloth_line(struct wrap *wrap, const struct cloth_mark *mark)
 {
 	struct wrap_scratch *s = wrap->scratch;
-	float length = 0.0f;
+	struct mark_line *line = &s->on_cloth;
+	struct v3 *steady = line->normal; /* it has none: room for a moment */
 	for (int i = 0; i < mark->point_count; i++)
 		s->drawn[i] = (struct v3){0.001f * mark->point_mm[i].x,
 					  0.001f * mark->point_mm[i].y, 0.0f};
-	wrap_steady_line(s->drawn, mark->point_count, 0.0f, s->cloth_line_m);
-	for (int i = 1; i < mark->point_count; i++)
-		length += v3_distance(s->cloth_line_m[i - 1], s->cloth_line_m[i]);
-	return length;
+	wrap_steady_line(s->drawn, NULL, mark->point_count, steady);
+	line->count = wrap_walk_line(steady, mark->point_count, line->point_m);
+	measure_line(line);
 }
 
 /* Which step of the body's line holds an arc length; *f: how far along the step. */
-static int step_at(const struct wrap_scratch *s, int count, float along_m, float *f)
+static int step_at(const struct mark_line *line, float along_m, float *f)
 {
 	int i = 0;
-	while (i + 2 < count && s->along_m[i + 1] < along_m)
+	while (i + 2 < line->count && line->along_m[i + 1] < along_m)
 		i++;
-	float length = v3_distance(s->mark_point_m[i], s->mark_point_m[i + 1]);
-	*f = (along_m - s->along_m[i]) / float_max(length, 1e-6f);
+	float length = line->along_m[i + 1] - line->along_m[i];
+	*f = (along_m - line->along_m[i]) / float_max(length, 1e-6f);
 	return i;
 }
 
 /* Cloth that goes round the trunk hangs before places that look down: between the legs, under a
  * belly. */
-static bool can_lie(const struct wrap *wrap, int piece, int count, float along_m)
+static bool can_lie(const struct wrap *wrap, int piece, float along_m)
 {
+	const struct mark_line *line = &wrap->scratch->on_body;
 	float f;
-	int i = step_at(wrap->scratch, count, along_m, &f);
-	return wrap->scratch->home[piece] != PART_TRUNK ||
-	       wrap->scratch->mark_normal[i].y > looks_down;
+	int i = step_at(line, along_m, &f);
+	return wrap->scratch->home[piece] != PART_TRUNK || line->normal[i].y > looks_down;
 }
 
 /* The place on the body that belongs to arc length and lateral distance on the cloth; beyond the
  * body's line it goes straight on. */
-static struct v3 place_on_body(const struct wrap *wrap, int count, float along_m, float lateral_m)
+static struct v3 place_on_body(const struct wrap *wrap, float along_m, float lateral_m)
 {
-	const struct wrap_scratch *s = wrap->scratch;
+	const struct mark_line *line = &wrap->scratch->on_body;
 	float f;
-	int i = step_at(s, count, along_m, &f);
-	struct v3 a = s->mark_point_m[i], step = v3_sub(s->mark_point_m[i + 1], a);
+	int i = step_at(line, along_m, &f);
+	struct v3 a = line->point_m[i], step = v3_sub(line->point_m[i + 1], a);
 	struct v3 normal = v3_normalize(
-		v3_lerp(s->mark_normal[i], s->mark_normal[i + 1], float_clamp(f, 0.0f, 1.0f)));
+		v3_lerp(line->normal[i], line->normal[i + 1], float_clamp(f, 0.0f, 1.0f)));
 	struct v3 left = v3_normalize(v3_cross(normal, step));
 	struct v3 place = v3_mad(v3_mad(a, step, f), left, lateral_m);
 	return v3_mad(place, normal, wrap->cloth->settings.offset_m);
 }
 
 /* Nearest point of the cloth's line: arc length and signed distance (left is positive). */
-static float nearest_on_line(const struct v3 *line_m, int count, struct v2 p_m, float *along_m,
+static float nearest_on_line(const struct mark_line *line, struct v2 p_m, float *along_m,
 			     float *lateral_m)
 {
-	float best = 1e9f, before = 0.0f;
+	float best = 1e9f;
 	*along_m = *lateral_m = 0.0f;
-	for (int i = 0; i + 1 < count; i++) {
-		struct v2 a = {line_m[i].x, line_m[i].y};
-		struct v2 step = {line_m[i + 1].x - a.x, line_m[i + 1].y - a.y};
+	for (int i = 0; i + 1 < line->count; i++) {
+		const struct v3 *from = &line->point_m[i];
+		struct v2 a = {from[0].x, from[0].y}, step = {from[1].x - a.x, from[1].y - a.y};
 		float length = float_max(v2_length(step), 1e-6f);
 		struct v2 u = v2_scale(step, 1.0f / length), w = v2_sub(p_m, a);
 		float t = float_clamp(v2_dot(w, u), 0.0f, length);
 		float distance = v2_distance(w, v2_scale(u, t));
 		if (distance < best) {
 			best = distance;
-			*along_m = before + t;
+			*along_m = line->along_m[i] + t;
 			*lateral_m = v2_cross(u, w);
 		}
-		before += length;
 	}
 	return best;
 }
@@ -195,7 +202,9 @@ static int seed_mark(struct wrap *wrap, const struct cloth_mark *mark, const str
 {
 	struct cloth *cloth = wrap->cloth;
 	const struct garment *garment = cloth->garment;
-	float body_m = wrap_body_line(wrap, on), cloth_m = wrap_cloth_line(wrap, mark);
+	wrap_body_line(wrap, on);
+	wrap_cloth_line(wrap, mark);
+	float body_m = wrap->scratch->on_body.length_m, cloth_m = wrap->scratch->on_cloth.length_m;
 	float width = wide * garment->edge_m;
 	float share = cloth->piece_gather[mark->piece].share;
 	int seeds = 0;
@@ -208,13 +217,13 @@ static int seed_mark(struct wrap *wrap, const struct cloth_mark *mark, const str
 	for (int v = garment->piece_first[mark->piece]; v < garment->piece_first[mark->piece + 1];
 	     v++) {
 		float along_m, lateral_m;
-		if (nearest_on_line(wrap->scratch->cloth_line_m, mark->point_count,
-				    garment->rest_m[v], &along_m, &lateral_m) > width ||
+		if (nearest_on_line(&wrap->scratch->on_cloth, garment->rest_m[v], &along_m,
+				    &lateral_m) > width ||
 		    along_m * share > body_m + width)
 			continue;
-		if (!can_lie(wrap, mark->piece, on->point_count, along_m * share))
+		if (!can_lie(wrap, mark->piece, along_m * share))
 			continue;
-		lay(wrap, v, place_on_body(wrap, on->point_count, along_m * share, lateral_m));
+		lay(wrap, v, place_on_body(wrap, along_m * share, lateral_m));
 		seeds++;
 	}
 	wrap->scratch->seeded[mark->piece] |= seeds > 0;
