@@ -1,12 +1,13 @@
-/* A body whose limbs, head and neck are drawn in to their bones: places, normals and boxes; the
- * rest is shared. */
+/* A body whose limbs, head and neck are drawn in to their bones, and whose trunk is flat: places,
+ * normals and boxes; the rest is shared. */
 #include "body_slim.h"
 
 #include "body_limb.h"
 #include "body_private.h"
 #include "body_tree.h"
 
-static const float thin_share = 0.35f; /* of a limb's width that is left */
+static const float thin_share = 0.35f; /* of a limb's width that is left, */
+static const float flat_share = 0.5f;  /* and of the trunk's depth */
 static const float root_share = 0.12f; /* of a limb's length, in which it narrows */
 
 void body_slim_init(struct body *slim, struct arena *arena)
@@ -52,11 +53,23 @@ static float length_of(const struct body *body, int part)
 	return length_m;
 }
 
-/* How much of its distance from the bones a limb's point keeps. */
-static float kept(float reach_m, float length_m)
+/* The trunk loses depth only: shoulders stay as far apart as the arms are. */
+static struct v3 flattened(const struct body *full, struct v3 p_m, float kept)
 {
-	float in = float_clamp(reach_m / (root_share * length_m), 0.0f, 1.0f);
-	return 1.0f + in * (thin_share - 1.0f);
+	float best = 1e9f, axis_m = p_m.z;
+	for (int b = 0; b < full->bone_count; b++) {
+		if (full->bone[b].part != PART_TRUNK)
+			continue;
+		struct v3 a_m = full->bone[b].a_m, step = v3_sub(full->bone[b].b_m, a_m);
+		float t = v3_dot(v3_sub(p_m, a_m), step) / float_max(v3_dot(step, step), 1e-8f);
+		struct v3 q = v3_mad(a_m, step, float_clamp(t, 0.0f, 1.0f));
+		if (v3_distance(q, p_m) < best) {
+			best = v3_distance(q, p_m);
+			axis_m = q.z;
+		}
+	}
+	p_m.z = axis_m + kept * (p_m.z - axis_m);
+	return p_m;
 }
 
 /* Hands and feet belong to no part that cloth may be asked to touch. */
@@ -76,13 +89,16 @@ static void place(struct body *slim, const struct body *full, const struct limb_
 		struct beside at;
 		struct v3 p = full->position_m[v];
 		int part = full->part[full->star[full->star_first[v]]];
-		slim->position_m[v] = p;
+		struct v3 *slim_m = &slim->position_m[v];
+		*slim_m = flattened(full, p, flat_share + share * (1.0f - flat_share));
 		if (part == PART_TRUNK || !body_beside(full, part, p, &at))
 			continue;
 		if (part >= PART_ARM_LEFT && at.reach_m > limb[part].wrist_m)
 			hide(slim, v);
-		float thin = kept(at.reach_m, length_m[part]);
-		slim->position_m[v] = v3_lerp(at.axis_m, p, thin + share * (1.0f - thin));
+		float in = float_clamp(at.reach_m / (root_share * length_m[part]), 0.0f, 1.0f);
+		*slim_m = v3_lerp(*slim_m,
+				  v3_lerp(at.axis_m, p, thin_share + share * (1.0f - thin_share)),
+				  in);
 	}
 }
 
