@@ -6,7 +6,7 @@
 
 enum {
 	RING_SWEEPS = 3,
-	CLOSE_SWEEPS = 80,
+	CLOSE_SWEEPS = 60,
 	RELEASE_SWEEPS = 30, /* still closing, but the marks have let go */
 	LATE_SWEEPS = 110,   /* the same when seams are late */
 	WELD_SWEEPS = 12,
@@ -305,7 +305,7 @@ static long close_up(struct wrap *wrap)
 		return 1;
 	}
 	wrap->progress++;
-	return sweep(wrap);
+	return wrap_close_round(wrap) + sweep(wrap);
 }
 
 /* Some sweeps as one cloth. */

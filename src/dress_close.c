@@ -1,0 +1,101 @@
+/* Seams close round the body. What a seam joins may lie on two sides of a shoulder or an arm: the
+ * straight way leads through it, and contact holds both where they are. Such pairs go round the
+ * bone that lies between them, to the side to which both edges look from their cloth. */
+#include "dress_private.h"
+
+static const float round_step_m = 0.003f; /* a sweep */
+static const float opposed = 0.5f; /* largest cosine between the ways to two opposite sides */
+static const float agreed = 0.7f;  /* least length of the mean of the edges' two looks */
+
+/* A pair and the bone between its ends. */
+struct between {
+	struct v3 bone_m; /* nearest to the middle */
+	struct v3 a, b;   /* from there */
+	float radius_m;   /* mean length of the two */
+};
+
+static struct v3 nearest_bone(const struct body *body, struct v3 p_m)
+{
+	struct v3 nearest = p_m;
+	float best = 1e9f;
+	for (int i = 0; i < body->bone_count; i++) {
+		struct v3 a_m = body->bone[i].a_m, step = v3_sub(body->bone[i].b_m, a_m);
+		float t = v3_dot(v3_sub(p_m, a_m), step) / float_max(v3_dot(step, step), 1e-8f);
+		struct v3 q = v3_mad(a_m, step, float_clamp(t, 0.0f, 1.0f));
+		if (v3_distance(q, p_m) < best) {
+			best = v3_distance(q, p_m);
+			nearest = q;
+		}
+	}
+	return nearest;
+}
+
+static bool look_between(const struct cloth *cloth, const struct seam_pair *pair,
+			 struct between *between)
+{
+	int a = cloth->particle[pair->a], b = cloth->particle[pair->b];
+	if (a == b || !cloth->placed[a] || !cloth->placed[b] || cloth->body->bone_count == 0)
+		return false;
+	struct v3 a_m = cloth->position_m[a], b_m = cloth->position_m[b];
+	between->bone_m = nearest_bone(cloth->body, v3_lerp(a_m, b_m, 0.5f));
+	between->a = v3_sub(a_m, between->bone_m);
+	between->b = v3_sub(b_m, between->bone_m);
+	between->radius_m = 0.5f * (v3_length(between->a) + v3_length(between->b));
+	return between->radius_m > 1e-3f;
+}
+
+/* Where the edges of cloth look: from the middle of what lies round a vertex to the vertex. */
+static void find_looks(struct wrap *wrap)
+{
+	struct wrap_scratch *s = wrap->scratch;
+	const struct cloth *cloth = wrap->cloth;
+	const struct garment *garment = cloth->garment;
+	memset(s->sum_m, 0, (size_t)garment->vertex_count * sizeof *s->sum_m);
+	memset(s->count, 0, (size_t)garment->vertex_count * sizeof *s->count);
+	for (int t = 0; t < garment->triangle_count; t++) {
+		const int *v = cloth->triangle[t].v;
+		const struct v3 *x = cloth->position_m;
+		struct v3 sum = v3_add(v3_add(x[v[0]], x[v[1]]), x[v[2]]);
+		for (int k = 0; k < 3; k++) {
+			s->sum_m[v[k]] = v3_add(s->sum_m[v[k]], sum);
+			s->count[v[k]] += 3;
+		}
+	}
+}
+
+static struct v3 look_of(const struct wrap *wrap, int v)
+{
+	float count = (float)int_max(wrap->scratch->count[v], 1);
+	return v3_normalize(
+		v3_mad(wrap->cloth->position_m[v], wrap->scratch->sum_m[v], -1.0f / count));
+}
+
+/* A step of a particle round the bone, `from` there, towards a direction. */
+static void go_round(struct cloth *cloth, int v, struct v3 from, struct v3 to)
+{
+	struct v3 out = v3_normalize(from);
+	struct v3 tangent = v3_mad(to, out, -v3_dot(to, out));
+	if (!cloth->held[v])
+		cloth->position_m[v] = v3_mad(cloth->position_m[v], v3_normalize(tangent),
+					      round_step_m);
+}
+
+long wrap_close_round(struct wrap *wrap)
+{
+	struct cloth *cloth = wrap->cloth;
+	find_looks(wrap);
+	for (int i = 0; i < cloth->garment->pair_count; i++) {
+		const struct seam_pair *pair = &cloth->garment->pair[i];
+		int a = cloth->particle[pair->a], b = cloth->particle[pair->b];
+		struct between at;
+		if (!look_between(cloth, pair, &at) ||
+		    v3_dot(v3_normalize(at.a), v3_normalize(at.b)) > opposed)
+			continue;
+		struct v3 to = v3_scale(v3_add(look_of(wrap, a), look_of(wrap, b)), 0.5f);
+		if (v3_length(to) < agreed)
+			continue;
+		go_round(cloth, a, at.a, to);
+		go_round(cloth, b, at.b, to);
+	}
+	return cloth->garment->triangle_count;
+}
