@@ -257,8 +257,8 @@ static const struct {
 	int interval_us; /* between two reports of the tablet */
 	void (*visit)(struct hand *hand);
 } visits[] = {
-	{"tshirt", 10000, visit_tshirt}, {"sleeves", 10000, visit_sleeves},
-	{"skirt", 10000, visit_skirt},   {"poncho", 10000, visit_poncho},
+	{"tshirt", 5000, visit_tshirt}, {"sleeves", 10000, visit_sleeves},
+	{"skirt", 10000, visit_skirt},  {"poncho", 10000, visit_poncho},
 	{"askew", 10000, visit_askew},
 };
 
