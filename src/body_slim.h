@@ -1,6 +1,7 @@
-/* A body with its limbs, head and neck drawn in to their bones, to lay and sew a garment round: no
- * hand catches a cuff, no chin a collar, and under the arms and between the legs there is room for
- * cloth. It then grows into the garment until it is the body itself. */
+/* A body with its limbs, head and neck drawn in to their bones and a flat trunk, to lay and sew a
+ * garment round: no hand catches a cuff, no chin a collar, a seam has no shoulder to climb, and
+ * under the arms and between the legs there is room for cloth. It then grows into the garment until
+ * it is the body itself. */
 #ifndef BODY_SLIM_H
 #define BODY_SLIM_H
 
