@@ -10,6 +10,7 @@ enum {
 };
 
 #define LIMB_ENDLESS_M 1e9f
+#define LIMB_THIN_SHARE 0.35f /* of a limb's width that a slim body keeps */
 
 /* Where a point lies beside a limb's bones. */
 struct beside {
@@ -26,6 +27,10 @@ struct limb_shape {
 
 /* False: the part has no bones. */
 bool body_beside(const struct body *body, int part, struct v3 p_m, struct beside *beside);
+
+/* Nearest point of the bones of some parts: bits of enum body_part, 0 means all. p_m itself where
+ * there are no bones. */
+struct v3 body_nearest_bone(const struct body *body, unsigned parts, struct v3 p_m);
 
 /* Of arms and legs; the other parts stay empty. */
 void body_measure_limbs(const struct body *body, struct limb_shape limb[PART_COUNT]);

@@ -6,8 +6,7 @@
 #include "body_private.h"
 #include "body_tree.h"
 
-static const float thin_share = 0.35f; /* of a limb's width that is left, */
-static const float flat_share = 0.5f;  /* and of the trunk's depth */
+static const float flat_share = 0.5f;  /* of the trunk's depth that is left */
 static const float root_share = 0.12f; /* of a limb's length, in which it narrows */
 
 void body_slim_init(struct body *slim, struct arena *arena)
@@ -56,18 +55,7 @@ static float length_of(const struct body *body, int part)
 /* The trunk loses depth only: shoulders stay as far apart as the arms are. */
 static struct v3 flattened(const struct body *full, struct v3 p_m, float kept)
 {
-	float best = 1e9f, axis_m = p_m.z;
-	for (int b = 0; b < full->bone_count; b++) {
-		if (full->bone[b].part != PART_TRUNK)
-			continue;
-		struct v3 a_m = full->bone[b].a_m, step = v3_sub(full->bone[b].b_m, a_m);
-		float t = v3_dot(v3_sub(p_m, a_m), step) / float_max(v3_dot(step, step), 1e-8f);
-		struct v3 q = v3_mad(a_m, step, float_clamp(t, 0.0f, 1.0f));
-		if (v3_distance(q, p_m) < best) {
-			best = v3_distance(q, p_m);
-			axis_m = q.z;
-		}
-	}
+	float axis_m = body_nearest_bone(full, 1u << PART_TRUNK, p_m).z;
 	p_m.z = axis_m + kept * (p_m.z - axis_m);
 	return p_m;
 }
@@ -96,9 +84,10 @@ static void place(struct body *slim, const struct body *full, const struct limb_
 		if (part >= PART_ARM_LEFT && at.reach_m > limb[part].wrist_m)
 			hide(slim, v);
 		float in = float_clamp(at.reach_m / (root_share * length_m[part]), 0.0f, 1.0f);
-		*slim_m = v3_lerp(*slim_m,
-				  v3_lerp(at.axis_m, p, thin_share + share * (1.0f - thin_share)),
-				  in);
+		*slim_m = v3_lerp(
+			*slim_m,
+			v3_lerp(at.axis_m, p, LIMB_THIN_SHARE + share * (1.0f - LIMB_THIN_SHARE)),
+			in);
 	}
 }
 

@@ -7,28 +7,10 @@ static const float round_step_m = 0.003f; /* a sweep */
 static const float opposed = 0.5f; /* largest cosine between the ways to two opposite sides */
 static const float agreed = 0.7f;  /* least length of the mean of the edges' two looks */
 
-/* A pair and the bone between its ends. */
+/* The ends of a pair, as seen from the bone that is nearest to their middle. */
 struct between {
-	struct v3 bone_m; /* nearest to the middle */
-	struct v3 a, b;   /* from there */
-	float radius_m;   /* mean length of the two */
+	struct v3 a, b;
 };
-
-static struct v3 nearest_bone(const struct body *body, struct v3 p_m)
-{
-	struct v3 nearest = p_m;
-	float best = 1e9f;
-	for (int i = 0; i < body->bone_count; i++) {
-		struct v3 a_m = body->bone[i].a_m, step = v3_sub(body->bone[i].b_m, a_m);
-		float t = v3_dot(v3_sub(p_m, a_m), step) / float_max(v3_dot(step, step), 1e-8f);
-		struct v3 q = v3_mad(a_m, step, float_clamp(t, 0.0f, 1.0f));
-		if (v3_distance(q, p_m) < best) {
-			best = v3_distance(q, p_m);
-			nearest = q;
-		}
-	}
-	return nearest;
-}
 
 static bool look_between(const struct cloth *cloth, const struct seam_pair *pair,
 			 struct between *between)
@@ -37,11 +19,10 @@ static bool look_between(const struct cloth *cloth, const struct seam_pair *pair
 	if (a == b || !cloth->placed[a] || !cloth->placed[b] || cloth->body->bone_count == 0)
 		return false;
 	struct v3 a_m = cloth->position_m[a], b_m = cloth->position_m[b];
-	between->bone_m = nearest_bone(cloth->body, v3_lerp(a_m, b_m, 0.5f));
-	between->a = v3_sub(a_m, between->bone_m);
-	between->b = v3_sub(b_m, between->bone_m);
-	between->radius_m = 0.5f * (v3_length(between->a) + v3_length(between->b));
-	return between->radius_m > 1e-3f;
+	struct v3 bone_m = body_nearest_bone(cloth->body, 0, v3_lerp(a_m, b_m, 0.5f));
+	between->a = v3_sub(a_m, bone_m);
+	between->b = v3_sub(b_m, bone_m);
+	return v3_length(between->a) + v3_length(between->b) > 1e-3f;
 }
 
 /* Where the edges of cloth look: from the middle of what lies round a vertex to the vertex. */

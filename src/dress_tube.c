@@ -3,7 +3,6 @@
 #include "dress_private.h"
 
 static const float section_m = 0.03f;
-static const float thin_share = 0.35f; /* of a hand's hull, while the limb is slim */
 
 /* Sections of a tube are counted from its hem. */
 static int section_of(float up_m)
@@ -86,7 +85,7 @@ static struct v3 clear_hand(const struct limb_shape *limb, const struct beside *
 long wrap_clear_hands(struct wrap *wrap, float share)
 {
 	struct cloth *cloth = wrap->cloth;
-	float of_hull = thin_share + share * (1.0f - thin_share);
+	float of_hull = LIMB_THIN_SHARE + share * (1.0f - LIMB_THIN_SHARE);
 	for (int v = 0; v < cloth->garment->vertex_count; v++) {
 		struct beside at;
 		struct v3 *p = &cloth->position_m[v];
