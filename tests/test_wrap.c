@@ -104,6 +104,28 @@ static void check_worn_right(void)
 	CHECK(measure.arms_in_sleeves == 2);
 }
 
+/* Marks drawn low and askew: the shoulder seams have farther to go, and still close over the
+ * shoulders. */
+static void test_tshirt_low(void)
+{
+	static const struct v3 aside_m[] = {{0.0f, -0.03f, 0.0f},
+					    {0.0f, -0.05f, 0.0f},
+					    {0.03f, -0.04f, 0.0f},
+					    {-0.03f, 0.0f, 0.0f}};
+	for (int i = 0; i < COUNT_OF(aside_m); i++) {
+		read_document("tests/journals/tshirt.kitsuke");
+		for (int m = 0; m < MARKS_MAX; m++)
+			for (int k = 0; k < session.document.marks.body[m].point_count; k++) {
+				struct v3 *p = &session.document.marks.body[m].point_m[k];
+				*p = v3_add(*p, aside_m[i]);
+			}
+		dress(360);
+		printf("marks off by %.0f, %.0f mm:\n", 1e3 * (double)aside_m[i].x,
+		       1e3 * (double)aside_m[i].y);
+		check_worn_right();
+	}
+}
+
 static void test_tshirt(void)
 {
 	read_document("tests/journals/tshirt.kitsuke");
@@ -295,6 +317,7 @@ int main(void)
 	CHECK(!body_build_mannequin(&session.body));
 	CHECK(body_find_parts(&session.body));
 	test_tshirt();
+	test_tshirt_low();
 	test_holds();
 	test_tshirt();
 	test_move();
