@@ -68,7 +68,7 @@ static void hide(struct body *slim, int v)
 }
 
 static void place(struct body *slim, const struct body *full, const struct limb_shape *limb,
-		  float share)
+		  unsigned whole, float share)
 {
 	float length_m[PART_COUNT];
 	for (int part = 0; part < PART_COUNT; part++)
@@ -79,7 +79,9 @@ static void place(struct body *slim, const struct body *full, const struct limb_
 		int part = full->part[full->star[full->star_first[v]]];
 		struct v3 *slim_m = &slim->position_m[v];
 		*slim_m = flattened(full, p, flat_share + share * (1.0f - flat_share));
-		if (part == PART_TRUNK || !body_beside(full, part, p, &at))
+		if (whole >> part & 1)
+			*slim_m = p;
+		if (part == PART_TRUNK || whole >> part & 1 || !body_beside(full, part, p, &at))
 			continue;
 		if (part >= PART_ARM_LEFT && at.reach_m > limb[part].wrist_m)
 			hide(slim, v);
@@ -92,12 +94,12 @@ static void place(struct body *slim, const struct body *full, const struct limb_
 }
 
 bool body_slim_make(struct body *slim, const struct body *full, const struct limb_shape *limb,
-		    float share)
+		    unsigned whole, float share)
 {
 	if (full->bone_count == 0)
 		return false;
 	share_mesh(slim, full);
-	place(slim, full, limb, share);
+	place(slim, full, limb, whole, share);
 	body_build_normals(slim);
 	body_build_prisms(slim);
 	body_refit(slim);

@@ -10,11 +10,11 @@
 /* Takes memory for places and trees; the rest is the full body's own. */
 void body_slim_init(struct body *slim, struct arena *arena);
 
-/* The body with its limbs grown so far: share 0: thin, 1: as they are. Triangles and parts are the
- * full body's; no walk on it is trusted (body.clear: balls of radius 0).
- * Hands and feet are of no part (PART_COUNT): who asks for parts does not meet them. False: the
- * body has no limbs, nothing was made. */
+/* The body with its limbs grown so far: share 0: thin, 1: as they are. `whole`: parts that
+ * stay as they are, bits of enum body_part. Triangles and parts are the full body's; no walk on it
+ * is trusted (body.clear: balls of radius 0). Hands and feet are of no part (PART_COUNT): who asks
+ * for parts does not meet them. False: the body has no limbs, nothing was made. */
 bool body_slim_make(struct body *slim, const struct body *full, const struct limb_shape *limb,
-		    float share);
+		    unsigned whole, float share);
 
 #endif

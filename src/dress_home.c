@@ -102,6 +102,22 @@ void wrap_find_homes(struct wrap *wrap)
 	allow_parts(wrap);
 }
 
+unsigned wrap_whole_parts(const struct wrap *wrap)
+{
+	const struct garment *garment = wrap->cloth->garment;
+	const int8_t *home = wrap->scratch->home;
+	bool masked = false;
+	for (int v = 0; v < garment->vertex_count && !masked; v++)
+		masked = home[garment->piece[v]] == PART_HEAD;
+	/* A collar or a hood goes on at the neck. */
+	for (int i = 0; i < garment->pair_count; i++) {
+		int a = home[garment->piece[garment->pair[i].a]];
+		int b = home[garment->piece[garment->pair[i].b]];
+		masked &= (a == PART_HEAD) == (b == PART_HEAD);
+	}
+	return masked ? 1u << PART_HEAD : 0;
+}
+
 /* ---- bones as axes ---- */
 
 bool wrap_outward(const struct body *body, const struct body_hit *hit, struct v3 *out)

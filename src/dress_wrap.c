@@ -123,7 +123,8 @@ static bool lay_marks(struct wrap *wrap)
 	if (wrap_seed(wrap) == 0)
 		return false;
 	wrap_grow_init(wrap);
-	if (body_slim_make(&wrap->scratch->slim, wrap->scratch->full, wrap->scratch->limb, 0.0f))
+	if (body_slim_make(&wrap->scratch->slim, wrap->scratch->full, wrap->scratch->limb,
+			   wrap_whole_parts(wrap), 0.0f))
 		turn_to(wrap->cloth, &wrap->scratch->slim);
 	enter(wrap, WRAP_GROW, growing());
 	return true;
@@ -333,7 +334,7 @@ static long fill(struct wrap *wrap)
 	if (wrap->progress % FILL_SWEEPS == 0) {
 		float share = fill_share(wrap);
 		if (share < 1.0f)
-			body_slim_make(&s->slim, s->full, s->limb, share);
+			body_slim_make(&s->slim, s->full, s->limb, wrap_whole_parts(wrap), share);
 		turn_to(wrap->cloth, share < 1.0f ? &s->slim : s->full);
 		units += s->full->triangle_count +
 			 LOOK_UNITS * (long)wrap->cloth->garment->vertex_count;

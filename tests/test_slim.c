@@ -43,7 +43,7 @@ static void test_thin(void)
 {
 	int thin = 0, hidden = 0;
 	float deepest_m = 0.0f;
-	CHECK(body_slim_make(&slim, &body, limb, 0.0f));
+	CHECK(body_slim_make(&slim, &body, limb, 0, 0.0f));
 	for (int v = 0; v < body.vertex_count; v++) {
 		struct beside at;
 		int part = part_of(v);
@@ -88,7 +88,7 @@ static void test_grown(void)
 {
 	static const float share[] = {0.3f, 0.7f, 1.0f};
 	for (int i = 0; i < COUNT_OF(share); i++) {
-		CHECK(body_slim_make(&slim, &body, limb, share[i]));
+		CHECK(body_slim_make(&slim, &body, limb, 0, share[i]));
 		for (int v = 0; v < body.vertex_count; v += 7) {
 			struct body_hit hit;
 			body_nearest(&slim, slim.position_m[v], 0, &hit);
@@ -99,11 +99,22 @@ static void test_grown(void)
 	}
 }
 
+/* What is to stay whole does, and nothing else. */
+static void test_whole(void)
+{
+	int moved[2] = {0};
+	CHECK(body_slim_make(&slim, &body, limb, 1u << PART_HEAD, 0.0f));
+	for (int v = 0; v < body.vertex_count; v++)
+		moved[part_of(v) == PART_HEAD] += v3_distance(slim.position_m[v],
+							      body.position_m[v]) > 0.0f;
+	CHECK(moved[1] == 0 && moved[0] > 1000);
+}
+
 /* A body without bones has nothing to draw in. */
 static void test_boneless(void)
 {
 	body.bone_count = 0;
-	CHECK(!body_slim_make(&slim, &body, limb, 0.0f));
+	CHECK(!body_slim_make(&slim, &body, limb, 0, 0.0f));
 }
 
 int main(void)
@@ -121,6 +132,7 @@ int main(void)
 	test_thin();
 	test_hidden();
 	test_grown();
+	test_whole();
 	test_boneless();
 	free(memory);
 	return test_end();
