@@ -163,5 +163,5 @@ float limb_hull(const struct limb_shape *limb, const struct beside *at, struct v
 		if (cosine[k] > across_least)
 			least_m = float_min(least_m, wide_m / cosine[k]);
 	}
-	return least_m;
+	return least_m < LIMB_ENDLESS_M ? least_m : 0.0f;
 }

@@ -36,7 +36,7 @@ struct v3 body_nearest_bone(const struct body *body, unsigned parts, struct v3 p
 void body_measure_limbs(const struct body *body, struct limb_shape limb[PART_COUNT]);
 
 /* How far from the bones the convex hull of the limb's section reaches in the direction of a point:
- * a hand is as wide as a mitten. */
+ * a hand is as wide as a mitten. 0 in a direction along the bones, where no side bounds it. */
 float limb_hull(const struct limb_shape *limb, const struct beside *at, struct v3 p_m);
 
 #endif

@@ -37,6 +37,9 @@ static void test_hull(void)
 		CHECK(v3_distance(p_m, at.axis_m) < limb_hull(&limb[part], &at, p_m) + 0.001f);
 	}
 	CHECK(seen > 1000);
+	/* Beside a joint a point may lie along the bone: nothing is as wide as that. */
+	struct beside along = {{0.0f, 1.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, 0.1f};
+	CHECK(limb_hull(&limb[PART_ARM_LEFT], &along, (struct v3){0.1f, 1.0f, 0.0f}) == 0.0f);
 }
 
 static void test_thin(void)
