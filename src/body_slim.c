@@ -78,10 +78,9 @@ static void place(struct body *slim, const struct body *full, const struct limb_
 		struct v3 p = full->position_m[v];
 		int part = full->part[full->star[full->star_first[v]]];
 		struct v3 *slim_m = &slim->position_m[v];
-		*slim_m = flattened(full, p, flat_share + share * (1.0f - flat_share));
-		if (whole >> part & 1)
-			*slim_m = p;
-		if (part == PART_TRUNK || whole >> part & 1 || !body_beside(full, part, p, &at))
+		bool stays = whole >> part & 1;
+		*slim_m = stays ? p : flattened(full, p, flat_share + share * (1.0f - flat_share));
+		if (stays || part == PART_TRUNK || !body_beside(full, part, p, &at))
 			continue;
 		if (part >= PART_ARM_LEFT && at.reach_m > limb[part].wrist_m)
 			hide(slim, v);
