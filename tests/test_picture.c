@@ -4,6 +4,8 @@
 #include "test.h"
 
 #include <cairo.h>
+#include <errno.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 enum { WIDTH = 33, HEIGHT = 17 };
@@ -82,13 +84,12 @@ static void contact_sheet_holds_its_frames(const char *folder)
 	cairo_surface_destroy(surface);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
-	char folder[] = "/tmp/kitsuke-picture-XXXXXX", command[64];
-	if (!mkdtemp(folder)) {
-		printf("no folder for pictures in /tmp\n");
-		return 77;
-	}
+	char folder[200], command[220];
+	CHECK(argc == 1);
+	snprintf(folder, sizeof folder, "%s.pictures", argv[0]);
+	CHECK(mkdir(folder, 0777) == 0 || errno == EEXIST);
 	written_is_read(folder);
 	faults_name_the_file();
 	contact_sheet_holds_its_frames(folder);
