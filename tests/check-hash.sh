@@ -9,7 +9,9 @@ variants() {
   cat <<EOF
 gcc-O0|gcc|-O0||1
 gcc-O2|gcc|-O2||1 2 4
-clang-O2|clang|-O2||1 4
+gcc-O3|gcc|-O3||3
+clang-O0|clang|-O0||1
+clang-O2|clang|-O2||1 2 4
 clang-O3|clang|-O3||3
 gcc-sanitize|gcc|-O1 -fsanitize=address,undefined -fno-sanitize-recover=all||2
 gcc-threads|gcc|-O1 -fsanitize=thread|env TSAN_OPTIONS=halt_on_error=1|4
