@@ -152,7 +152,7 @@ int main(void)
 	test_order(true);
 	test_visit("tests/journals/skirt-over-tshirt.kitsuke", false, 20);
 	test_visit("tests/journals/skirt-over-tshirt.kitsuke", true, 0);
-	test_visit("tests/journals/coat-over-tshirt.kitsuke", false, 20);
+	test_visit("tests/journals/coat-over-tshirt.kitsuke", false, 3);
 	test_refusals();
 	return test_end();
 }
