@@ -145,10 +145,11 @@ void body_build_normals(struct body *body)
 		struct v3 n = v3_normalize(
 			v3_cross(v3_sub(p[v[1]], p[v[0]]), v3_sub(p[v[2]], p[v[0]])));
 		body->face_normal[t] = n;
+		struct v3 edge[3];
+		for (int k = 0; k < 3; k++)
+			edge[k] = v3_normalize(v3_sub(p[v[(k + 1) % 3]], p[v[k]]));
 		for (int k = 0; k < 3; k++) {
-			struct v3 a = v3_normalize(v3_sub(p[v[(k + 1) % 3]], p[v[k]]));
-			struct v3 b = v3_normalize(v3_sub(p[v[(k + 2) % 3]], p[v[k]]));
-			float angle_rad = angle_acos(v3_dot(a, b));
+			float angle_rad = angle_acos(-v3_dot(edge[k], edge[(k + 2) % 3]));
 			body->normal[v[k]] = v3_mad(body->normal[v[k]], n, angle_rad);
 		}
 	}

@@ -39,12 +39,15 @@ struct v3 body_nearest_bone(const struct body *body, unsigned parts, struct v3 p
 	struct v3 nearest = p_m;
 	float best = 1e9f;
 	for (int b = 0; b < body->bone_count; b++) {
+		if (parts && !(parts >> body->bone[b].part & 1))
+			continue;
 		struct v3 a_m = body->bone[b].a_m, step = v3_sub(body->bone[b].b_m, a_m);
 		float t = v3_dot(v3_sub(p_m, a_m), step) / float_max(v3_dot(step, step), 1e-8f);
 		struct v3 q = v3_mad(a_m, step, float_clamp(t, 0.0f, 1.0f));
-		if ((parts && !(parts >> body->bone[b].part & 1)) || v3_distance(q, p_m) >= best)
+		float distance = v3_distance(q, p_m);
+		if (distance >= best)
 			continue;
-		best = v3_distance(q, p_m);
+		best = distance;
 		nearest = q;
 	}
 	return nearest;

@@ -8,6 +8,7 @@ enum {
 };
 
 static const float plane_off_m = 0.001f;   /* a plane that may be so wrong is found anew */
+static const float way_slack_m = 1e-5f;    /* more than rounding takes from a way */
 static const float near_m = 0.03f;         /* farther cloth can't touch in the next sweeps */
 static const float push_max_m = 0.015f;    /* deepest step out in one sweep */
 static const float near_margin_m = 0.001f; /* faces so little farther off are looked at too */
@@ -45,22 +46,39 @@ void cloth_look(struct cloth *cloth, int v)
  * the distance was can meet it (the displacement bound of Chen et al., "Offset Geometric Contact",
  * 2025, here with the exact way instead of a shorter step, since the body stands still). It has no
  * motion left then. */
-static long stop_at_surface(struct cloth *cloth, int v)
+static bool stop_at_surface(struct cloth *cloth, int v, struct v3 from_m)
 {
-	const struct body_track *track = &cloth->scratch->track[v];
 	struct v3 *p = &cloth->position_m[v];
 	unsigned parts = allowed_parts(cloth, v);
 	struct body_hit hit;
-	if (cloth->contact[v].distance_m <= 0.0f ||
-	    !body_segment_hits(cloth->body, track->at_m, *p, &hit) ||
+	if (!body_segment_hits(cloth->body, from_m, *p, &hit) ||
 	    (parts && !(parts >> cloth->body->part[hit.triangle] & 1)))
-		return RAY_UNITS;
-	struct v3 way = v3_sub(*p, track->at_m);
+		return false;
+	struct v3 way = v3_sub(*p, from_m);
 	float sinks = -v3_dot(way, cloth->body->face_normal[hit.triangle]);
 	float before = clearance(cloth, v) / float_max(sinks, 1e-6f);
-	*p = v3_mad(track->at_m, way, float_max(hit.distance_m - before, 0.0f));
+	*p = v3_mad(from_m, way, float_max(hit.distance_m - before, 0.0f));
 	cloth->previous_m[v] = *p;
-	return RAY_UNITS;
+	return true;
+}
+
+/* Looks the contact up at the end of a way. Nothing can lie on it when both ends are so far from
+ * all surface that their distances cover it; else it may have to end before, and is looked up
+ * there. */
+static long look_along(struct cloth *cloth, int v, float way)
+{
+	struct body_track before = cloth->scratch->track[v];
+	struct contact contact = cloth->contact[v];
+	long looked = look(cloth, v);
+	const struct body_track *track = &cloth->scratch->track[v];
+	bool covered = track->parts == before.parts &&
+		       way + way_slack_m < before.least_m + track->least_m;
+	if (contact.distance_m > 0.0f && !covered && stop_at_surface(cloth, v, before.at_m)) {
+		cloth->scratch->track[v] = before;
+		cloth->contact[v] = contact;
+		looked = look(cloth, v);
+	}
+	return RAY_UNITS + looked;
 }
 
 /* How wrong the plane's distance may be, `way` from where it was found: the surface can be nearer
@@ -77,7 +95,6 @@ static float plane_off(const struct cloth *cloth, int v, struct v3 gone, float w
 static long refresh(struct cloth *cloth, int v)
 {
 	struct body_track *track = &cloth->scratch->track[v];
-	long units = 0;
 	if (cloth->contact[v].triangle < 0 || cloth->contact[v].triangle != track->triangle) {
 		track->triangle = -1; /* new, or its contact was taken from elsewhere */
 		return look(cloth, v);
@@ -86,9 +103,7 @@ static long refresh(struct cloth *cloth, int v)
 	float way = v3_length(gone);
 	if (plane_off(cloth, v, gone, way) < plane_off_m && track->parts == allowed_parts(cloth, v))
 		return 1;
-	if (way > track->least_m)
-		units += stop_at_surface(cloth, v);
-	return units + look(cloth, v);
+	return way > track->least_m ? look_along(cloth, v, way) : look(cloth, v);
 }
 
 /* Up to where the particle's faces need it. Returns how far. */

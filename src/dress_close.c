@@ -25,30 +25,34 @@ static bool look_between(const struct cloth *cloth, const struct seam_pair *pair
 	return v3_length(between->a) + v3_length(between->b) > 1e-3f;
 }
 
-/* Where the edges of cloth look: from the middle of what lies round a vertex to the vertex. */
-static void find_looks(struct wrap *wrap)
+/* The middle of what lies round a particle. */
+static struct v3 middle_round(const struct cloth *cloth, int v)
 {
-	struct wrap_scratch *s = wrap->scratch;
+	const struct v3 *x = cloth->position_m;
+	int first = cloth->star_first[v], end = cloth->star_first[v + 1];
+	struct v3 sum = {0.0f, 0.0f, 0.0f};
+	for (int i = first; i < end; i++) {
+		const int *t = cloth->triangle[cloth->star[i] / 4].v;
+		sum = v3_add(sum, v3_add(v3_add(x[t[0]], x[t[1]]), x[t[2]]));
+	}
+	return v3_scale(sum, 1.0f / (float)int_max(3 * (end - first), 1));
+}
+
+/* Of all that is sewn, before any of it moves. */
+static void find_middles(struct wrap *wrap)
+{
 	const struct cloth *cloth = wrap->cloth;
-	const struct garment *garment = cloth->garment;
-	memset(s->sum_m, 0, (size_t)garment->vertex_count * sizeof *s->sum_m);
-	memset(s->count, 0, (size_t)garment->vertex_count * sizeof *s->count);
-	for (int t = 0; t < garment->triangle_count; t++) {
-		const int *v = cloth->triangle[t].v;
-		const struct v3 *x = cloth->position_m;
-		struct v3 sum = v3_add(v3_add(x[v[0]], x[v[1]]), x[v[2]]);
-		for (int k = 0; k < 3; k++) {
-			s->sum_m[v[k]] = v3_add(s->sum_m[v[k]], sum);
-			s->count[v[k]] += 3;
-		}
+	for (int i = 0; i < 2 * cloth->garment->pair_count; i++) {
+		const struct seam_pair *pair = &cloth->garment->pair[i / 2];
+		int v = cloth->particle[i & 1 ? pair->b : pair->a];
+		wrap->scratch->sum_m[v] = middle_round(cloth, v);
 	}
 }
 
+/* Where the edge of cloth looks: from the middle of what lies round a vertex to the vertex. */
 static struct v3 look_of(const struct wrap *wrap, int v)
 {
-	float count = (float)int_max(wrap->scratch->count[v], 1);
-	return v3_normalize(
-		v3_mad(wrap->cloth->position_m[v], wrap->scratch->sum_m[v], -1.0f / count));
+	return v3_normalize(v3_sub(wrap->cloth->position_m[v], wrap->scratch->sum_m[v]));
 }
 
 /* A step of a particle round the bone, `from` there, towards a direction. */
@@ -64,7 +68,7 @@ static void go_round(struct cloth *cloth, int v, struct v3 from, struct v3 to)
 long wrap_close_round(struct wrap *wrap)
 {
 	struct cloth *cloth = wrap->cloth;
-	find_looks(wrap);
+	find_middles(wrap);
 	for (int i = 0; i < cloth->garment->pair_count; i++) {
 		const struct seam_pair *pair = &cloth->garment->pair[i];
 		int a = cloth->particle[pair->a], b = cloth->particle[pair->b];

@@ -30,7 +30,7 @@ struct wrap_scratch {
 	float hem_m[PIECES_MAX];  /* how far along */
 	float tube_m[PART_COUNT][TUBE_SECTIONS]; /* girths of the cloth from its hem up */
 	uint8_t *seeded;                         /* per piece: a mark lies on it */
-	struct v3 *sum_m;                        /* per vertex: predictions of a ring */
+	struct v3 *sum_m; /* per vertex: predictions of a ring; middles round a seam's */
 	int *count;
 	int *edge_first;           /* per vertex + 1: triangles on edges whose lower vertex it is */
 	int *edge_triangle;        /* triangle * 3 + corner */
