@@ -4,6 +4,7 @@
 #include "fabric.h"
 
 static const float far_m = 0.035f; /* a body farther than this pulls drawn pieces */
+static const float blown_m = 0.1f; /* cloth nearer than this is inflated */
 
 static void init_order(struct cloth_scratch *s, struct arena *arena)
 {
@@ -264,22 +265,25 @@ static void for_all_slots(struct cloth *cloth, crew_task *task)
 	crew_run(cloth->crew, task, cloth, loop_parts(cloth->scratch->slot_count - SLOT_FIRST));
 }
 
-/* A far body pulls drawn pieces. */
-static void attract(struct cloth *cloth, struct loop_part slots)
+/* A far body pulls drawn pieces; a near one pushes cloth away that is inflated. */
+static void drive(struct cloth *cloth, struct loop_part slots)
 {
 	struct cloth_scratch *s = cloth->scratch;
+	const struct cloth_settings *set = &cloth->settings;
 	for (int slot = slots.first; slot < slots.first + slots.count; slot++) {
 		int v = s->slot_vertex[slot];
 		const struct contact *contact = &cloth->contact[v];
-		if (!cloth->piece_drawn[cloth->garment->piece[v]] || contact->triangle < 0 ||
-		    contact->distance_m <= far_m)
+		float out_m = contact->distance_m <= blown_m ? set->inflate_m : 0.0f;
+		if (contact->distance_m > far_m && cloth->piece_drawn[cloth->garment->piece[v]])
+			out_m -= set->attract_m;
+		if (out_m == 0.0f || contact->triangle < 0)
 			continue;
 		struct v3 p = place_v3(&s->place[slot]);
-		put_place(&s->place[slot], v3_mad(p, contact->normal, -cloth->settings.attract_m));
+		put_place(&s->place[slot], v3_mad(p, contact->normal, out_m));
 	}
 }
 
-/* Momentum, gravity and the pull of a far body. */
+/* Momentum, gravity, and what a body does at a distance. */
 static void predict(void *context, int part)
 {
 	struct cloth *cloth = context;
@@ -289,8 +293,8 @@ static void predict(void *context, int part)
 	kernel_of(cloth->lanes)
 		->predict(cloth->scratch->place + slots.first, &particles, slots.count,
 			  set->momentum, set->step_max_m, set->gravity_m);
-	if (set->attract_m > 0.0f)
-		attract(cloth, slots);
+	if (set->attract_m > 0.0f || set->inflate_m > 0.0f)
+		drive(cloth, slots);
 }
 
 /* Both sides of a seam go half the way towards each other, at most seam_step_m in a sweep. */

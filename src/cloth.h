@@ -41,6 +41,7 @@ struct cloth_settings {
 	float step_max_m;   /* bound on a particle's motion in one sweep */
 	float seam_step_m;  /* bound on the closing of a seam in one sweep; 0: seams don't pull */
 	float attract_m;    /* pull of drawn pieces to a body farther than 35 mm; 0: none */
+	float inflate_m;    /* push of all cloth away from a body nearer than 100 mm; 0: none */
 	bool filter_parts;  /* each piece only meets the body parts that piece_parts allows */
 	bool faces;         /* also keep edge midpoints and triangle centres outside */
 	bool open;          /* folds that are not wanted turn back */

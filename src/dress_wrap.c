@@ -76,6 +76,8 @@ static struct cloth_settings filling(void)
 	return set;
 }
 
+/* Cloth wider than the body lies on it in pleats. Blown up until it is taut round the air, it has
+ * none; and then it settles in the few folds that its weight makes. */
 static struct cloth_settings unfolding(void)
 {
 	struct cloth_settings set = growing();
@@ -84,6 +86,7 @@ static struct cloth_settings unfolding(void)
 	set.friction = 0.0f;
 	set.grip = 0.0f;
 	set.offset_m += 0.004f;
+	set.inflate_m = 0.001f;
 	set.filter_parts = false;
 	set.open = true;
 	return set;
