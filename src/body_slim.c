@@ -9,9 +9,11 @@
 static const float flat_share = 0.5f;  /* of the trunk's depth that is left */
 static const float root_share = 0.12f; /* of a limb's length, in which it narrows */
 
-void body_slim_init(struct body *slim, struct arena *arena)
+void body_slim_init(struct slim_body *slim_body, struct arena *arena)
 {
-	memset(slim, 0, sizeof *slim);
+	struct body *slim = &slim_body->body;
+	memset(slim_body, 0, sizeof *slim_body);
+	slim_body->way = ARENA_ARRAY(arena, struct slim_way, BODY_VERTICES_MAX);
 	slim->position_m = ARENA_ARRAY(arena, struct v3, BODY_VERTICES_MAX);
 	slim->normal = ARENA_ARRAY(arena, struct v3, BODY_VERTICES_MAX);
 	slim->face_normal = ARENA_ARRAY(arena, struct v3, BODY_TRIANGLES_MAX);
@@ -52,14 +54,6 @@ static float length_of(const struct body *body, int part)
 	return length_m;
 }
 
-/* The trunk loses depth only: shoulders stay as far apart as the arms are. */
-static struct v3 flattened(const struct body *full, struct v3 p_m, float kept)
-{
-	float axis_m = body_nearest_bone(full, 1u << PART_TRUNK, p_m).z;
-	p_m.z = axis_m + kept * (p_m.z - axis_m);
-	return p_m;
-}
-
 /* Hands and feet belong to no part that cloth may be asked to touch. */
 static void hide(struct body *slim, int v)
 {
@@ -67,8 +61,8 @@ static void hide(struct body *slim, int v)
 		slim->part[slim->star[i]] = PART_COUNT;
 }
 
-static void place(struct body *slim, const struct body *full, const struct limb_shape *limb,
-		  unsigned whole, float share)
+static void find_ways(struct slim_body *slim, const struct body *full,
+		      const struct limb_shape *limb, unsigned whole)
 {
 	float length_m[PART_COUNT];
 	for (int part = 0; part < PART_COUNT; part++)
@@ -77,30 +71,47 @@ static void place(struct body *slim, const struct body *full, const struct limb_
 		struct beside at;
 		struct v3 p = full->position_m[v];
 		int part = full->part[full->star[full->star_first[v]]];
-		struct v3 *slim_m = &slim->position_m[v];
+		struct slim_way *way = &slim->way[v];
 		bool stays = whole >> part & 1;
-		*slim_m = stays ? p : flattened(full, p, flat_share + share * (1.0f - flat_share));
+		*way = (struct slim_way){p, p.z, -1.0f};
+		if (!stays)
+			way->middle_m = body_nearest_bone(full, 1u << PART_TRUNK, p).z;
 		if (stays || part == PART_TRUNK || !body_beside(full, part, p, &at))
 			continue;
 		if (part >= PART_ARM_LEFT && at.reach_m > limb[part].wrist_m)
-			hide(slim, v);
-		float in = float_clamp(at.reach_m / (root_share * length_m[part]), 0.0f, 1.0f);
-		*slim_m = v3_lerp(
-			*slim_m,
-			v3_lerp(at.axis_m, p, LIMB_THIN_SHARE + share * (1.0f - LIMB_THIN_SHARE)),
-			in);
+			hide(&slim->body, v);
+		way->axis_m = at.axis_m;
+		way->in = float_clamp(at.reach_m / (root_share * length_m[part]), 0.0f, 1.0f);
 	}
 }
 
-bool body_slim_make(struct body *slim, const struct body *full, const struct limb_shape *limb,
-		    unsigned whole, float share)
+/* The trunk loses depth only: shoulders stay as far apart as the arms are. */
+static struct v3 place(const struct slim_way *way, struct v3 p_m, float share)
+{
+	float deep = flat_share + share * (1.0f - flat_share);
+	float wide = LIMB_THIN_SHARE + share * (1.0f - LIMB_THIN_SHARE);
+	struct v3 flat_m = {p_m.x, p_m.y, way->middle_m + deep * (p_m.z - way->middle_m)};
+	if (way->in < 0.0f)
+		return flat_m;
+	return v3_lerp(flat_m, v3_lerp(way->axis_m, p_m, wide), way->in);
+}
+
+void body_slim_grow(struct slim_body *slim, const struct body *full, float share)
+{
+	for (int v = 0; v < full->vertex_count; v++)
+		slim->body.position_m[v] = place(&slim->way[v], full->position_m[v], share);
+	body_build_normals(&slim->body);
+	body_build_prisms(&slim->body);
+	body_refit(&slim->body);
+}
+
+bool body_slim_make(struct slim_body *slim, const struct body *full, const struct limb_shape *limb,
+		    unsigned whole)
 {
 	if (full->bone_count == 0)
 		return false;
-	share_mesh(slim, full);
-	place(slim, full, limb, whole, share);
-	body_build_normals(slim);
-	body_build_prisms(slim);
-	body_refit(slim);
+	share_mesh(&slim->body, full);
+	find_ways(slim, full, limb, whole);
+	body_slim_grow(slim, full, 0.0f);
 	return true;
 }

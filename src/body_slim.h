@@ -7,14 +7,29 @@
 
 #include "body_limb.h"
 
-/* Takes memory for places and trees; the rest is the full body's own. */
-void body_slim_init(struct body *slim, struct arena *arena);
+/* How a vertex is drawn in. */
+struct slim_way {
+	struct v3 axis_m; /* nearest point of its limb's bones, to which it goes */
+	float middle_m;   /* z of the trunk's bones, to which it goes; its own: it stays */
+	float in;         /* 0..1: share of the way to its limb's bones; below 0: it has none */
+};
 
-/* The body with its limbs grown so far: share 0: thin, 1: as they are. `whole`: parts that
- * stay as they are, bits of enum body_part. Triangles and parts are the full body's; no walk on it
- * is trusted (body.clear: balls of radius 0). Hands and feet are of no part (PART_COUNT): who asks
- * for parts does not meet them. False: the body has no limbs, nothing was made. */
-bool body_slim_make(struct body *slim, const struct body *full, const struct limb_shape *limb,
-		    unsigned whole, float share);
+struct slim_body {
+	struct body body;     /* as it is now */
+	struct slim_way *way; /* per vertex */
+};
+
+/* Takes memory for places and trees; the rest is the full body's own. */
+void body_slim_init(struct slim_body *slim, struct arena *arena);
+
+/* The full body at its thinnest. `whole`: parts that stay as they are, bits of enum body_part.
+ * Triangles and parts are the full body's; no walk on it is trusted (body.clear: balls of radius
+ * 0). Hands and feet are of no part (PART_COUNT): who asks for parts does not meet them. False: the
+ * body has no limbs, nothing was made. */
+bool body_slim_make(struct slim_body *slim, const struct body *full, const struct limb_shape *limb,
+		    unsigned whole);
+
+/* The same grown so far: share 0: thin, 1: as it is. */
+void body_slim_grow(struct slim_body *slim, const struct body *full, float share);
 
 #endif

@@ -23,7 +23,7 @@ struct mark_line {
 
 struct wrap_scratch {
 	const struct body *full; /* to be dressed */
-	struct body slim;        /* that the garment is laid and sewn round */
+	struct slim_body slim;   /* that the garment is laid and sewn round */
 	int8_t home[PIECES_MAX]; /* enum body_part that the piece belongs to, or PART_NONE */
 	struct limb_shape limb[PART_COUNT];
 	bool in_tube[PIECES_MAX]; /* it goes round its limb along piece_gather.along */

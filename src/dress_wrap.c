@@ -127,8 +127,8 @@ static bool lay_marks(struct wrap *wrap)
 		return false;
 	wrap_grow_init(wrap);
 	if (body_slim_make(&wrap->scratch->slim, wrap->scratch->full, wrap->scratch->limb,
-			   wrap_whole_parts(wrap), 0.0f))
-		turn_to(wrap->cloth, &wrap->scratch->slim);
+			   wrap_whole_parts(wrap)))
+		turn_to(wrap->cloth, &wrap->scratch->slim.body);
 	enter(wrap, WRAP_GROW, growing());
 	return true;
 }
@@ -199,7 +199,7 @@ static float fill_share(const struct wrap *wrap)
 static long sweep(struct wrap *wrap)
 {
 	long units = cloth_sweep(wrap->cloth);
-	if (wrap->cloth->body == &wrap->scratch->slim)
+	if (wrap->cloth->body == &wrap->scratch->slim.body)
 		units += wrap_clear_hands(wrap, fill_share(wrap));
 	return units;
 }
@@ -337,8 +337,8 @@ static long fill(struct wrap *wrap)
 	if (wrap->progress % FILL_SWEEPS == 0) {
 		float share = fill_share(wrap);
 		if (share < 1.0f)
-			body_slim_make(&s->slim, s->full, s->limb, wrap_whole_parts(wrap), share);
-		turn_to(wrap->cloth, share < 1.0f ? &s->slim : s->full);
+			body_slim_grow(&s->slim, s->full, share);
+		turn_to(wrap->cloth, share < 1.0f ? &s->slim.body : s->full);
 		units += s->full->triangle_count +
 			 LOOK_UNITS * (long)wrap->cloth->garment->vertex_count;
 	}

@@ -2,7 +2,9 @@
 #include "body_slim.h"
 #include "test.h"
 
-static struct body body, slim;
+static struct body body;
+static struct slim_body slim_body;
+static const struct body *const slim = &slim_body.body;
 static struct limb_shape limb[PART_COUNT];
 
 static int part_of(int v)
@@ -46,27 +48,27 @@ static void test_thin(void)
 {
 	int thin = 0, hidden = 0;
 	float deepest_m = 0.0f;
-	CHECK(body_slim_make(&slim, &body, limb, 0, 0.0f));
+	CHECK(body_slim_make(&slim_body, &body, limb, 0));
 	for (int v = 0; v < body.vertex_count; v++) {
 		struct beside at;
 		int part = part_of(v);
 		struct v3 p_m = body.position_m[v];
-		float moved_m = v3_distance(p_m, slim.position_m[v]);
+		float moved_m = v3_distance(p_m, slim->position_m[v]);
 		if (part == PART_TRUNK) {
 			/* It loses depth and nothing else. */
-			CHECK(p_m.x == slim.position_m[v].x && p_m.y == slim.position_m[v].y);
+			CHECK(p_m.x == slim->position_m[v].x && p_m.y == slim->position_m[v].y);
 			deepest_m = float_max(deepest_m, moved_m);
 			continue;
 		}
 		body_beside(&body, part, p_m, &at);
-		float left = v3_distance(slim.position_m[v], at.axis_m) /
+		float left = v3_distance(slim->position_m[v], at.axis_m) /
 			     float_max(v3_distance(p_m, at.axis_m), 1e-6f);
 		CHECK(left < 1.001f);
 		thin += left < 0.4f;
 		if (part == PART_HEAD || at.reach_m <= limb[part].wrist_m)
 			continue;
 		hidden++;
-		CHECK(slim.part[slim.star[slim.star_first[v]]] == PART_COUNT);
+		CHECK(slim->part[slim->star[slim->star_first[v]]] == PART_COUNT);
 	}
 	CHECK(thin > 1000 && hidden > 500 && deepest_m > 0.03f && deepest_m < 0.1f);
 }
@@ -80,10 +82,10 @@ static void test_hidden(void)
 		if (body.bone[b].part == PART_ARM_LEFT)
 			last = &body.bone[b];
 	struct body_hit named, any;
-	body_nearest(&slim, last->b_m, (1u << PART_COUNT) - 1, &named);
-	body_nearest(&slim, last->b_m, 0, &any);
-	CHECK(slim.part[named.triangle] < PART_COUNT);
-	CHECK(slim.part[any.triangle] == PART_COUNT);
+	body_nearest(slim, last->b_m, (1u << PART_COUNT) - 1, &named);
+	body_nearest(slim, last->b_m, 0, &any);
+	CHECK(slim->part[named.triangle] < PART_COUNT);
+	CHECK(slim->part[any.triangle] == PART_COUNT);
 }
 
 /* Step by step it becomes the body, and the tree with it. */
@@ -91,13 +93,13 @@ static void test_grown(void)
 {
 	static const float share[] = {0.3f, 0.7f, 1.0f};
 	for (int i = 0; i < COUNT_OF(share); i++) {
-		CHECK(body_slim_make(&slim, &body, limb, 0, share[i]));
+		body_slim_grow(&slim_body, &body, share[i]);
 		for (int v = 0; v < body.vertex_count; v += 7) {
 			struct body_hit hit;
-			body_nearest(&slim, slim.position_m[v], 0, &hit);
+			body_nearest(slim, slim->position_m[v], 0, &hit);
 			CHECK(float_abs(hit.distance_m) < 1e-5f);
 			if (share[i] == 1.0f)
-				CHECK(v3_distance(slim.position_m[v], body.position_m[v]) < 1e-5f);
+				CHECK(v3_distance(slim->position_m[v], body.position_m[v]) < 1e-5f);
 		}
 	}
 }
@@ -106,9 +108,9 @@ static void test_grown(void)
 static void test_whole(void)
 {
 	int moved[2] = {0};
-	CHECK(body_slim_make(&slim, &body, limb, 1u << PART_HEAD, 0.0f));
+	CHECK(body_slim_make(&slim_body, &body, limb, 1u << PART_HEAD));
 	for (int v = 0; v < body.vertex_count; v++)
-		moved[part_of(v) == PART_HEAD] += v3_distance(slim.position_m[v],
+		moved[part_of(v) == PART_HEAD] += v3_distance(slim->position_m[v],
 							      body.position_m[v]) > 0.0f;
 	CHECK(moved[1] == 0 && moved[0] > 1000);
 }
@@ -117,7 +119,7 @@ static void test_whole(void)
 static void test_boneless(void)
 {
 	body.bone_count = 0;
-	CHECK(!body_slim_make(&slim, &body, limb, 0, 0.0f));
+	CHECK(!body_slim_make(&slim_body, &body, limb, 0));
 }
 
 int main(void)
@@ -127,7 +129,7 @@ int main(void)
 	void *memory = malloc(BYTES);
 	arena_init(&arena, memory, BYTES);
 	body_init(&body, &arena);
-	body_slim_init(&slim, &arena);
+	body_slim_init(&slim_body, &arena);
 	CHECK(!body_build_mannequin(&body) && body_find_parts(&body));
 	body_measure_limbs(&body, limb);
 	test_limbs();
