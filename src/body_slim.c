@@ -61,10 +61,31 @@ static void hide(struct body *slim, int v)
 		slim->part[slim->star[i]] = PART_COUNT;
 }
 
+/* x of the figure's middle: the spine has it, collar-bones and hips come in pairs. */
+static float middle_of(const struct body *body)
+{
+	float sum_m = 0.0f;
+	int count = 0;
+	for (int b = 0; b < body->bone_count; b++)
+		if (body->bone[b].part == PART_TRUNK) {
+			sum_m += body->bone[b].a_m.x;
+			count++;
+		}
+	return sum_m / (float)int_max(count, 1);
+}
+
+/* Where a leg's vertex has to be drawn to for its inner side to reach over the middle. */
+static struct v3 joined_to(struct v3 p_m, struct v3 axis_m, float middle_m)
+{
+	float way_m = middle_m - axis_m.x, x = v3_normalize(v3_sub(p_m, axis_m)).x;
+	float inner = float_max(way_m > 0.0f ? x : -x, 0.0f);
+	return (struct v3){p_m.x + inner * way_m / (1.0f - LIMB_THIN_SHARE), p_m.y, p_m.z};
+}
+
 static void find_ways(struct slim_body *slim, const struct body *full,
 		      const struct limb_shape *limb, unsigned whole)
 {
-	float length_m[PART_COUNT];
+	float length_m[PART_COUNT], middle_m = middle_of(full);
 	for (int part = 0; part < PART_COUNT; part++)
 		length_m[part] = length_of(full, part);
 	for (int v = 0; v < full->vertex_count; v++) {
@@ -72,15 +93,15 @@ static void find_ways(struct slim_body *slim, const struct body *full,
 		struct v3 p = full->position_m[v];
 		int part = full->part[full->star[full->star_first[v]]];
 		struct slim_way *way = &slim->way[v];
-		bool stays = whole >> part & 1;
+		bool stays = whole >> part & 1, joined = stays && part >= PART_LEG_LEFT;
 		*way = (struct slim_way){p, p.z, -1.0f};
-		if (!stays)
+		if (!stays || joined)
 			way->middle_m = body_nearest_bone(full, 1u << PART_TRUNK, p).z;
-		if (stays || part == PART_TRUNK || !body_beside(full, part, p, &at))
+		if (part == PART_TRUNK || (stays && !joined) || !body_beside(full, part, p, &at))
 			continue;
-		if (part >= PART_ARM_LEFT && at.reach_m > limb[part].wrist_m)
+		if (!joined && part >= PART_ARM_LEFT && at.reach_m > limb[part].wrist_m)
 			hide(&slim->body, v);
-		way->axis_m = at.axis_m;
+		way->axis_m = joined ? joined_to(p, at.axis_m, middle_m) : at.axis_m;
 		way->in = float_clamp(at.reach_m / (root_share * length_m[part]), 0.0f, 1.0f);
 	}
 }

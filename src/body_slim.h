@@ -9,7 +9,8 @@
 
 /* How a vertex is drawn in. */
 struct slim_way {
-	struct v3 axis_m; /* nearest point of its limb's bones, to which it goes */
+	struct v3 axis_m; /* nearest point of its limb's bones, to which it goes; of a joined leg's
+			     inner side: a place beyond the middle between both legs */
 	float middle_m;   /* z of the trunk's bones, to which it goes; its own: it stays */
 	float in;         /* 0..1: share of the way to its limb's bones; below 0: it has none */
 };
@@ -22,7 +23,8 @@ struct slim_body {
 /* Takes memory for places and trees; the rest is the full body's own. */
 void body_slim_init(struct slim_body *slim, struct arena *arena);
 
-/* The full body at its thinnest. `whole`: parts that stay as they are, bits of enum body_part.
+/* The full body at its thinnest. `whole`: parts that are not drawn in, bits of enum body_part; legs
+ * that are whole are joined, their inner sides meeting, so that a skirt lies on both as on one.
  * Triangles and parts are the full body's; no walk on it is trusted (body.clear: balls of radius
  * 0). Hands and feet are of no part (PART_COUNT): who asks for parts does not meet them. False: the
  * body has no limbs, nothing was made. */

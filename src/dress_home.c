@@ -102,20 +102,60 @@ void wrap_find_homes(struct wrap *wrap)
 	allow_parts(wrap);
 }
 
-unsigned wrap_whole_parts(const struct wrap *wrap)
+static bool lives_on(const struct wrap *wrap, enum body_part first, enum body_part last)
+{
+	const struct garment *garment = wrap->cloth->garment;
+	for (int v = 0; v < garment->vertex_count; v++) {
+		int home = wrap->scratch->home[garment->piece[v]];
+		if (home >= (int)first && home <= (int)last)
+			return true;
+	}
+	return false;
+}
+
+/* A collar or a hood goes on at the neck and is sewn to what is worn there; a mask is not. */
+static bool is_mask(const struct wrap *wrap)
 {
 	const struct garment *garment = wrap->cloth->garment;
 	const int8_t *home = wrap->scratch->home;
-	bool masked = false;
-	for (int v = 0; v < garment->vertex_count && !masked; v++)
-		masked = home[garment->piece[v]] == PART_HEAD;
-	/* A collar or a hood goes on at the neck. */
 	for (int i = 0; i < garment->pair_count; i++) {
 		int a = home[garment->piece[garment->pair[i].a]];
 		int b = home[garment->piece[garment->pair[i].b]];
-		masked &= (a == PART_HEAD) == (b == PART_HEAD);
+		if ((a == PART_HEAD) != (b == PART_HEAD))
+			return false;
 	}
-	return masked ? 1u << PART_HEAD : 0;
+	return lives_on(wrap, PART_HEAD, PART_HEAD);
+}
+
+static float trunk_middle_m(const struct body *body)
+{
+	float low_m = 1e9f, high_m = -1e9f;
+	for (int b = 0; b < body->bone_count; b++)
+		if (body->bone[b].part == PART_TRUNK) {
+			low_m = float_min(low_m, body->bone[b].a_m.y);
+			high_m = float_max(high_m, body->bone[b].b_m.y);
+		}
+	return 0.5f * (low_m + high_m);
+}
+
+/* All of it belongs on the trunk, and no mark lies on the trunk's upper half. */
+static bool is_skirt(const struct wrap *wrap)
+{
+	float middle_m = trunk_middle_m(wrap->cloth->body);
+	for (int m = 0; m < MARKS_MAX; m++) {
+		const struct cloth_mark *mark = &wrap->marks->cloth[m];
+		const struct body_mark *on = mark->used ? wrap_partner(wrap, mark->number) : NULL;
+		for (int i = 0; on && i < on->point_count; i++)
+			if (on->point_m[i].y > middle_m)
+				return false;
+	}
+	return !lives_on(wrap, PART_HEAD, PART_LEG_RIGHT);
+}
+
+unsigned wrap_whole_parts(const struct wrap *wrap)
+{
+	unsigned head = 1u << PART_HEAD, legs = 1u << PART_LEG_LEFT | 1u << PART_LEG_RIGHT;
+	return (is_mask(wrap) ? head : 0) | (is_skirt(wrap) ? legs : 0);
 }
 
 /* ---- bones as axes ---- */

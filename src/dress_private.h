@@ -67,7 +67,8 @@ bool wrap_mend_marks(struct wrap *wrap);
 /* Fills scratch->home and the cloth's piece_parts (dress_home.c). */
 void wrap_find_homes(struct wrap *wrap);
 
-/* Parts that stay whole while the rest of the body is slim, as bits: a mask needs a face. */
+/* Parts that stay whole while the rest of the body is slim, as bits: a mask needs a face, and a
+ * skirt legs with no gap to hang into. */
 unsigned wrap_whole_parts(const struct wrap *wrap);
 
 /* Says which limb is not in its tube, and whether the head is covered (dress_check.c). */

@@ -115,6 +115,31 @@ static void test_whole(void)
 	CHECK(moved[1] == 0 && moved[0] > 1000);
 }
 
+/* Whole legs reach over the middle between them and keep their outer sides. */
+static void test_joined(void)
+{
+	unsigned legs = 1u << PART_LEG_LEFT | 1u << PART_LEG_RIGHT;
+	int inner = 0, outer = 0;
+	CHECK(body_slim_make(&slim_body, &body, limb, legs));
+	for (int v = 0; v < body.vertex_count; v++) {
+		struct beside at;
+		struct v3 p_m = body.position_m[v];
+		int part = part_of(v);
+		if (part < PART_LEG_LEFT || !body_beside(&body, part, p_m, &at) ||
+		    at.reach_m < 0.2f)
+			continue;
+		float side = part == PART_LEG_LEFT ? 1.0f : -1.0f;
+		float out = side * v3_normalize(v3_sub(p_m, at.axis_m)).x;
+		if (out > 0.0f)
+			outer += v3_distance(slim->position_m[v], p_m) > 1e-6f;
+		if (out > -0.9f)
+			continue;
+		inner++;
+		CHECK(side * slim->position_m[v].x < 0.01f);
+	}
+	CHECK(inner > 50 && outer == 0);
+}
+
 /* A body without bones has nothing to draw in. */
 static void test_boneless(void)
 {
@@ -138,6 +163,7 @@ int main(void)
 	test_hidden();
 	test_grown();
 	test_whole();
+	test_joined();
 	test_boneless();
 	free(memory);
 	return test_end();
