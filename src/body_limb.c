@@ -141,7 +141,7 @@ void body_measure_limbs(const struct body *body, struct limb_shape limb[PART_COU
 {
 	memset(limb, 0, PART_COUNT * sizeof *limb);
 	for (int t = 0; t < body->triangle_count; t++)
-		for (int k = 0; k < 3 && body->part[t] >= PART_ARM_LEFT; k++) {
+		for (int k = 0; k < 3 && body->part[t] != PART_TRUNK; k++) {
 			const int *v = body->triangle[t].v;
 			widen_along(body, body->part[t], &limb[body->part[t]],
 				    body->position_m[v[k]], body->position_m[v[(k + 1) % 3]]);

@@ -32,7 +32,7 @@ bool body_beside(const struct body *body, int part, struct v3 p_m, struct beside
  * there are no bones. */
 struct v3 body_nearest_bone(const struct body *body, unsigned parts, struct v3 p_m);
 
-/* Of arms and legs; the other parts stay empty. */
+/* Of head (with the neck), arms and legs; the trunk's stays empty. */
 void body_measure_limbs(const struct body *body, struct limb_shape limb[PART_COUNT]);
 
 /* How far from the bones the convex hull of the limb's section reaches in the direction of a point:

@@ -90,9 +90,10 @@ struct v3 wrap_widened(const struct wrap *wrap, int v, struct v3 p_m);
 void wrap_body_line(struct wrap *wrap, const struct body_mark *mark);
 void wrap_cloth_line(struct wrap *wrap, const struct cloth_mark *mark);
 
-/* Moves sleeves and trouser legs out of the hull of hands and feet. share 0: the limb is slim, 1:
- * it is whole. Returns the units spent. */
-long wrap_clear_hands(struct wrap *wrap, float share);
+/* Moves sleeves and trouser legs out of the hull of hands and feet, and what hangs on the trunk's
+ * cloth without a mark, as a collar does, out of the hull of neck and head. share 0: the body is
+ * slim, 1: it is whole. Returns the units spent. */
+long wrap_clear_hulls(struct wrap *wrap, float share);
 
 /* Moves what a seam joins across a bone round that bone (dress_close.c). Returns the units spent.
  */

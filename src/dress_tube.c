@@ -1,8 +1,9 @@
 /* Sleeves and trouser legs are tubes round their limb, as wide as they are cut, however thin the
- * limb is; and they go round hand or foot as round a mitten. */
+ * limb is; and they go round hand or foot as round a mitten, as collars go round neck and head. */
 #include "dress_private.h"
 
 static const float section_m = 0.03f;
+static const float edge_longest = 1.5f; /* of the mesh's edge length */
 
 /* Sections of a tube are counted from its hem. */
 static int section_of(float up_m)
@@ -70,11 +71,10 @@ struct v3 wrap_widened(const struct wrap *wrap, int v, struct v3 p_m)
 	return v3_mad(at.axis_m, arm, radius_m / length);
 }
 
-/* Cloth goes round the hull of hand and foot. */
-static struct v3 clear_hand(const struct limb_shape *limb, const struct beside *at, struct v3 p_m,
-			    float share, float offset_m)
+/* Out from the bones, to that distance at least. */
+static struct v3 clear_by(const struct limb_shape *limb, const struct beside *at, struct v3 p_m,
+			  float least_m)
 {
-	float least_m = share * limb_hull(limb, at, p_m) + offset_m;
 	struct v3 arm = v3_sub(p_m, at->axis_m);
 	float length = v3_length(arm);
 	if (at->reach_m > limb->end_m || length > least_m || length < 1e-6f)
@@ -82,20 +82,43 @@ static struct v3 clear_hand(const struct limb_shape *limb, const struct beside *
 	return v3_mad(at->axis_m, arm, least_m / length);
 }
 
-long wrap_clear_hands(struct wrap *wrap, float share)
+/* Cloth goes round the hull of hand and foot. */
+static struct v3 clear_hand(const struct wrap *wrap, int home, struct v3 p_m, float of_hull)
+{
+	const struct limb_shape *limb = &wrap->scratch->limb[home];
+	struct beside at;
+	if (!body_beside(wrap->cloth->body, home, p_m, &at) || at.reach_m < limb->wrist_m)
+		return p_m;
+	float hull_m = of_hull * limb_hull(limb, &at, p_m);
+	return clear_by(limb, &at, p_m, hull_m + wrap->cloth->settings.offset_m);
+}
+
+/* A collar goes round the hull of neck and head, and so far from it that an edge between two of its
+ * points does: of a thin neck only the points would stay clear. */
+static struct v3 clear_neck(const struct wrap *wrap, struct v3 p_m, float of_hull)
+{
+	const struct limb_shape *head = &wrap->scratch->limb[PART_HEAD];
+	struct beside at;
+	if (!body_beside(wrap->cloth->body, PART_HEAD, p_m, &at) || at.reach_m < 0.0f)
+		return p_m;
+	float half_m = 0.5f * edge_longest * wrap->cloth->garment->edge_m;
+	float hull_m = of_hull * limb_hull(head, &at, p_m) + wrap->cloth->settings.offset_m;
+	return clear_by(head, &at, p_m, sqrtf(hull_m * hull_m + half_m * half_m));
+}
+
+long wrap_clear_hulls(struct wrap *wrap, float share)
 {
 	struct cloth *cloth = wrap->cloth;
 	float of_hull = LIMB_THIN_SHARE + share * (1.0f - LIMB_THIN_SHARE);
 	for (int v = 0; v < cloth->garment->vertex_count; v++) {
-		struct beside at;
 		struct v3 *p = &cloth->position_m[v];
-		int home = wrap->scratch->home[cloth->garment->piece[v]];
-		if (!is_particle(cloth, v) || home < PART_ARM_LEFT ||
-		    !body_beside(cloth->body, home, *p, &at))
+		int piece = cloth->garment->piece[v], home = wrap->scratch->home[piece];
+		if (!is_particle(cloth, v))
 			continue;
-		const struct limb_shape *limb = &wrap->scratch->limb[home];
-		if (at.reach_m >= limb->wrist_m)
-			*p = clear_hand(limb, &at, *p, of_hull, cloth->settings.offset_m);
+		if (home >= PART_ARM_LEFT)
+			*p = clear_hand(wrap, home, *p, of_hull);
+		else if (home == PART_TRUNK && !wrap->scratch->seeded[piece])
+			*p = clear_neck(wrap, *p, of_hull);
 	}
 	return cloth->garment->vertex_count;
 }

@@ -195,12 +195,13 @@ static float fill_share(const struct wrap *wrap)
 	return (float)step / (float)FILL_STEPS;
 }
 
-/* A sweep; round a slim body cloth stays clear of hands and feet, which it does not meet. */
+/* A sweep; round a slim body cloth stays clear of hands and feet, which it does not meet, and
+ * collars of chin and neck. */
 static long sweep(struct wrap *wrap)
 {
 	long units = cloth_sweep(wrap->cloth);
 	if (wrap->cloth->body == &wrap->scratch->slim.body)
-		units += wrap_clear_hands(wrap, fill_share(wrap));
+		units += wrap_clear_hulls(wrap, fill_share(wrap));
 	return units;
 }
 
