@@ -21,7 +21,8 @@ static void init_order(struct cloth_scratch *s, struct arena *arena)
 	s->slot_vertex = ARENA_ARRAY(arena, int, SLOT_FIRST + GARMENT_VERTICES_MAX);
 	s->place = ARENA_ARRAY(arena, struct place, SLOT_FIRST + GARMENT_VERTICES_MAX);
 	s->shape = ARENA_ARRAY(arena, struct shape_batch, SHAPE_BATCHES_MAX);
-	s->bend = ARENA_ARRAY(arena, struct bend, GARMENT_EDGES_MAX);
+	s->bends = ARENA_ARRAY(arena, struct bends, BENDS_MAX);
+	s->firm = ARENA_ARRAY(arena, struct firm, BENDS_MAX);
 }
 
 static void init_levels(struct cloth_scratch *s, struct arena *arena)

@@ -35,12 +35,18 @@ struct shape_batch {
 	float grain[3][BATCH];
 };
 
-/* An edge with the far corners of its triangles: flat when sum k[i] x[i] = 0; sum k k = 1. Its sums
- * are over whole particles, so that it fills the lanes by itself. */
-struct bend {
-	float k[4];
-	uint32_t at[4];
-	float firm; /* least share, whatever the setting */
+/* Two edges that share no particle, each with the far corners of its triangles: flat when sum k[i]
+ * x[i] = 0; sum k k = 1. The sums are over whole particles, so that an edge fills four lanes by
+ * itself. */
+enum { BENDS = 2 };
+struct bends {
+	_Alignas(64) float k[BENDS][4];
+	uint32_t at[BENDS][4];
+};
+
+/* The least share of two edges, whatever the setting. */
+struct firm {
+	float share[BENDS];
 };
 
 /* The nodes of a coarse level that move a particle, with their weights. */
@@ -61,9 +67,10 @@ struct kernel {
 	 * counts as a fault, the rest is left. */
 	void (*shape)(struct place *x, const struct shape_batch *batch, int count, float share,
 		      float shear, bool backwards);
-	/* Every edge goes `share` of its way to flat. */
-	void (*flatten)(struct place *x, const struct bend *bend, int count, float share,
-			bool backwards);
+	/* Every edge goes `share` of its way to flat, or `firm` if that is more; firm NULL: it is
+	 * nowhere. */
+	void (*flatten)(struct place *x, const struct bends *bends, const struct firm *firm,
+			int count, float share, bool backwards);
 	/* Every particle moves by the weighted moves of its nodes. */
 	void (*spread)(struct place *x, const struct spread *spread, int count,
 		       const struct place *move);

@@ -106,35 +106,56 @@ LANES_TARGET static void shape(struct place *x, const struct shape_batch *batch,
 	}
 }
 
-LANES_INLINE four mix(const four p[4], const float k[4])
+LANES_INLINE row mix(const row p[4], const row k[4])
 {
-	return four_add(four_add(four_scale(p[0], k[0]), four_scale(p[1], k[1])),
-			four_add(four_scale(p[2], k[2]), four_scale(p[3], k[3])));
+	return row_add(row_add(row_mul(p[0], k[0]), row_mul(p[1], k[1])),
+		       row_add(row_mul(p[2], k[2]), row_mul(p[3], k[3])));
 }
 
-LANES_TARGET static void flatten(struct place *x, const struct bend *bend, int count, float share,
-				 bool backwards)
+/* As many edges as a row has places. */
+LANES_INLINE void flatten_part(struct place *x, const struct bends *bends, int from, row share)
+{
+	const uint32_t *at = bends->at[from], *next = bends->at[BENDS - 1];
+	row k[4], p[4];
+	rows_splat(k, bends->k[from], bends->k[BENDS - 1]);
+	UNROLL for (int c = 0; c < 4; c++) p[c] = row_load(x, at[c], next[c]);
+	row fault = row_mul(mix(p, k), share);
+	UNROLL for (int c = 0; c < 4; c++)
+		row_store(x, at[c], next[c], row_sub(p[c], row_mul(fault, k[c])));
+}
+
+LANES_TARGET static void flatten(struct place *x, const struct bends *bends,
+				 const struct firm *firm, int count, float share, bool backwards)
 {
 	for (int i = 0; i < count; i++) {
-		const struct bend *now = &bend[backwards ? count - 1 - i : i];
-		const uint32_t *at = now->at;
-		four p[4] = {place_load(x, at[0]), place_load(x, at[1]), place_load(x, at[2]),
-			     place_load(x, at[3])};
-		four fault = four_scale(mix(p, now->k), now->firm > share ? now->firm : share);
-		UNROLL for (int c = 0; c < 4; c++)
-			place_store(x, at[c], four_sub(p[c], four_scale(fault, now->k[c])));
+		int now = backwards ? count - 1 - i : i;
+		for (int from = 0; from < BENDS; from += ROW_PLACES) {
+			row most = row_of(share, share);
+			if (firm)
+				most = row_of(float_max(firm[now].share[from], share),
+					      float_max(firm[now].share[BENDS - 1], share));
+			flatten_part(x, &bends[now], from, most);
+		}
 	}
+}
+
+/* The places a and b of x, if a row has two. */
+LANES_INLINE void spread_part(struct place *x, const struct spread *spread, int a, int b,
+			      const struct place *move)
+{
+	row w[4], p[4];
+	rows_splat(w, spread[a].weight, spread[b].weight);
+	UNROLL for (int c = 0; c < 4; c++)
+		p[c] = row_load(move, spread[a].node[c], spread[b].node[c]);
+	uint32_t at = place_offset(a), next = place_offset(b);
+	row_store(x, at, next, row_add(row_load(x, at, next), mix(p, w)));
 }
 
 LANES_TARGET static void spread_moves(struct place *x, const struct spread *spread, int count,
 				      const struct place *move)
 {
-	for (int i = 0; i < count; i++) {
-		const uint32_t *n = spread[i].node;
-		four p[4] = {place_load(move, n[0]), place_load(move, n[1]), place_load(move, n[2]),
-			     place_load(move, n[3])};
-		place_store(&x[i], 0, four_add(place_load(&x[i], 0), mix(p, spread[i].weight)));
-	}
+	for (int i = 0; i < count; i += ROW_PLACES)
+		spread_part(x, spread, i, int_min(i + 1, count - 1), move);
 }
 
 /* ---- particles in the public arrays ---- */

@@ -30,7 +30,7 @@
 
 typedef float lanes;
 typedef struct place row, four;
-enum { ROWS = 1 };
+enum { ROWS = 1, ROW_PLACES = 1 };
 
 LANES_INLINE lanes lanes_all(float value)
 {
@@ -65,6 +65,11 @@ LANES_INLINE row row_add(row a, row b)
 LANES_INLINE row row_sub(row a, row b)
 {
 	return (row){a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w};
+}
+
+LANES_INLINE row row_mul(row a, row b)
+{
+	return (row){a.x * b.x, a.y * b.y, a.z * b.z, a.w * b.w};
 }
 
 LANES_INLINE four four_add(four a, four b)
@@ -102,6 +107,29 @@ LANES_INLINE void place_store(struct place *x, uint32_t at, four a)
 	*(struct place *)((char *)x + at) = a;
 }
 
+LANES_INLINE row row_of(float a, float b)
+{
+	(void)b;
+	return (row){a, a, a, a};
+}
+
+LANES_INLINE row row_load(const struct place *x, uint32_t a, uint32_t b)
+{
+	(void)b;
+	return place_load(x, a);
+}
+
+LANES_INLINE void row_store(struct place *x, uint32_t a, uint32_t b, row r)
+{
+	(void)b;
+	place_store(x, a, r);
+}
+
+LANES_INLINE void rows_splat(row rows[4], const float *a, const float *b)
+{
+	UNROLL for (int c = 0; c < 4; c++) rows[c] = row_of(a[c], b[c]);
+}
+
 LANES_INLINE void rows_load(row rows[ROWS], const struct place *x, const uint32_t *at)
 {
 	rows[0] = place_load(x, at[0]);
@@ -129,7 +157,7 @@ LANES_INLINE void lanes_to_rows(const lanes axis[3], row rows[ROWS])
 typedef float four __attribute__((vector_size(16), may_alias));
 typedef float lanes __attribute__((vector_size(4 * LANES), may_alias));
 typedef lanes row;
-enum { ROWS = 4 };
+enum { ROWS = 4, ROW_PLACES = LANES / 4 };
 
 LANES_INLINE lanes lanes_all(float value)
 {
@@ -192,6 +220,11 @@ LANES_INLINE row row_sub(row a, row b)
 	return a - b;
 }
 
+LANES_INLINE row row_mul(row a, row b)
+{
+	return a * b;
+}
+
 LANES_INLINE four four_add(four a, four b)
 {
 	return a + b;
@@ -229,6 +262,26 @@ LANES_INLINE void place_store(struct place *x, uint32_t at, four a)
 
 #if LANES == 4
 
+LANES_INLINE row row_of(float a, float b)
+{
+	(void)b;
+	return (row){a, a, a, a};
+}
+
+LANES_INLINE row row_load(const struct place *x, uint32_t a, uint32_t b)
+{
+	(void)b;
+	return place_load(x, a);
+}
+
+LANES_INLINE void row_store(struct place *x, uint32_t a, uint32_t b, row r)
+{
+	(void)b;
+	place_store(x, a, r);
+}
+
+#define SPLAT(r, c) __builtin_shufflevector(r, r, c, c, c, c)
+
 LANES_INLINE void rows_load(row rows[ROWS], const struct place *x, const uint32_t *at)
 {
 	UNROLL for (int i = 0; i < ROWS; i++) rows[i] = place_load(x, at[i]);
@@ -246,19 +299,32 @@ LANES_INLINE void rows_store(const row rows[ROWS], struct place *x, const uint32
 
 #else /* two fours side by side: lane i beside lane i + 4 */
 
+LANES_INLINE row row_of(float a, float b)
+{
+	return (row){a, a, a, a, b, b, b, b};
+}
+
+LANES_INLINE row row_load(const struct place *x, uint32_t a, uint32_t b)
+{
+	return __builtin_shufflevector(place_load(x, a), place_load(x, b), 0, 1, 2, 3, 4, 5, 6, 7);
+}
+
+LANES_INLINE void row_store(struct place *x, uint32_t a, uint32_t b, row r)
+{
+	place_store(x, a, (four)_mm256_castps256_ps128((__m256)r));
+	place_store(x, b, (four)_mm256_extractf128_ps((__m256)r, 1));
+}
+
+#define SPLAT(r, c) __builtin_shufflevector(r, r, c, c, c, c, 4 + c, 4 + c, 4 + c, 4 + c)
+
 LANES_INLINE void rows_load(row rows[ROWS], const struct place *x, const uint32_t *at)
 {
-	UNROLL for (int i = 0; i < ROWS; i++) rows[i] = __builtin_shufflevector(
-		place_load(x, at[i]), place_load(x, at[i + 4]), 0, 1, 2, 3, 4, 5, 6, 7);
+	UNROLL for (int i = 0; i < ROWS; i++) rows[i] = row_load(x, at[i], at[i + 4]);
 }
 
 LANES_INLINE void rows_store(const row rows[ROWS], struct place *x, const uint32_t *at)
 {
-	UNROLL for (int i = 0; i < ROWS; i++)
-	{
-		place_store(x, at[i], (four)_mm256_castps256_ps128((__m256)rows[i]));
-		place_store(x, at[i + 4], (four)_mm256_extractf128_ps((__m256)rows[i], 1));
-	}
+	UNROLL for (int i = 0; i < ROWS; i++) row_store(x, at[i], at[i + 4], rows[i]);
 }
 
 #define LOW_PAIRS(a, b) __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13)
@@ -267,6 +333,15 @@ LANES_INLINE void rows_store(const row rows[ROWS], struct place *x, const uint32
 #define HIGH_HALVES(a, b) __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15)
 
 #endif
+
+LANES_INLINE void rows_splat(row rows[4], const float *a, const float *b)
+{
+	row r = row_load((const struct place *)a, 0, (uint32_t)((const char *)b - (const char *)a));
+	rows[0] = SPLAT(r, 0);
+	rows[1] = SPLAT(r, 1);
+	rows[2] = SPLAT(r, 2);
+	rows[3] = SPLAT(r, 3);
+}
 
 LANES_INLINE void rows_to_lanes(const row rows[ROWS], lanes axis[3])
 {

@@ -273,31 +273,63 @@ static void take_shapes(struct cloth *cloth)
 	}
 }
 
-static bool take_bend(const struct cloth *cloth, int f, struct bend *bend)
+static bool bend_placed(const struct cloth_scratch *s, const struct flat *flat)
 {
-	const struct cloth_scratch *s = cloth->scratch;
-	const struct flat *flat = &cloth->flat[f];
+	const int *v = flat->v;
+	return s->slot[v[0]] >= 0 && s->slot[v[1]] >= 0 && s->slot[v[2]] >= 0 && s->slot[v[3]] >= 0;
+}
+
+static void put_bend(struct cloth_scratch *s, int at, int edge, const struct flat *flat)
+{
+	bool firm = s->stiff[flat->v[0]] && s->stiff[flat->v[1]];
 	for (int k = 0; k < 4; k++) {
-		int slot = s->slot[flat->v[k]];
-		if (slot < 0)
-			return false;
-		bend->at[k] = place_offset(slot);
-		bend->k[k] = flat->k[k];
+		s->bends[at].at[edge][k] = place_offset(s->slot[flat->v[k]]);
+		s->bends[at].k[edge][k] = flat->k[k];
 	}
-	bend->firm = s->stiff[flat->v[0]] && s->stiff[flat->v[1]] ? FIRM_SHARE : 0.0f;
-	return true;
+	s->firm[at].share[edge] = firm ? FIRM_SHARE : 0.0f;
+	s->any_firm |= firm;
+	s->bend_count++;
+}
+
+/* Edges of strip `strip`'s pads, which rest. */
+static void open_bends(struct cloth_scratch *s, int at, int strip)
+{
+	for (int edge = 0; edge < BENDS; edge++)
+		for (int k = 0; k < 4; k++) {
+			s->bends[at].at[edge][k] = place_offset(PADS * strip + 4 * edge + k);
+			s->bends[at].k[edge][k] = s->firm[at].share[edge] = 0.0f;
+		}
+}
+
+/* As take_colour_shapes. */
+static int take_colour_bends(struct cloth *cloth, int key, int at)
+{
+	struct cloth_scratch *s = cloth->scratch;
+	int edge = BENDS, strip = key / COLOURS % s->strip_count;
+	bool singly = key % COLOURS == COLOURS - 1;
+	for (int i = s->flats.first[key]; i < s->flats.first[key + 1]; i++) {
+		const struct flat *flat = &cloth->flat[s->flats.item[i]];
+		if (!bend_placed(s, flat))
+			continue;
+		if ((edge == BENDS || singly) && at < BENDS_MAX) {
+			open_bends(s, at++, strip);
+			edge = 0;
+		}
+		if (edge < BENDS)
+			put_bend(s, at - 1, edge++, flat);
+	}
+	return at;
 }
 
 static void take_bends(struct cloth *cloth)
 {
 	struct cloth_scratch *s = cloth->scratch;
+	s->any_firm = false;
+	s->bend_count = 0;
 	for (int g = 0, at = 0; g <= GROUPS_MAX; g++) {
-		s->bend_first[g] = at;
-		if (g == GROUPS_MAX)
-			return;
-		int end = s->flats.first[COLOURS * (g + 1)];
-		for (int i = s->flats.first[COLOURS * g]; i < end; i++)
-			at += take_bend(cloth, s->flats.item[i], &s->bend[at]);
+		s->bends_first[g] = at;
+		for (int c = 0; g < GROUPS_MAX && c < COLOURS; c++)
+			at = take_colour_bends(cloth, COLOURS * g + c, at);
 	}
 }
 

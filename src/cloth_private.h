@@ -11,6 +11,7 @@ enum {
 	COLOURS = 64, /* of a group; the last holds what found no other and is worked singly */
 	SINGLES = 64, /* constraints of the last colour that are still worked */
 	SHAPE_BATCHES_MAX = GARMENT_TRIANGLES_MAX / BATCH + GROUPS_MAX * COLOURS + SINGLES,
+	BENDS_MAX = GARMENT_EDGES_MAX,  /* the last colour's edges may all be alone */
 	SLOT_FIRST = STRIPS_MAX * PADS, /* every strip has its own pads */
 	FACE_SLICES = 10,               /* a frame's sweeps: all faces once a frame */
 	LEVELS = 2,
@@ -124,8 +125,10 @@ struct cloth_scratch {
 	struct place *place; /* per slot */
 	struct shape_batch *shape;
 	int shape_first[GROUPS_MAX + 1];
-	struct bend *bend;
-	int bend_first[GROUPS_MAX + 1];
+	struct bends *bends;
+	struct firm *firm; /* per entry of bends */
+	bool any_firm;
+	int bends_first[GROUPS_MAX + 1], bend_count;
 
 	/* coarse levels (cloth_level.c) */
 	struct level level[LEVELS];

@@ -25,10 +25,10 @@ static void bend_group(void *context, int part)
 	const struct pass *pass = context;
 	const struct cloth *cloth = pass->cloth;
 	struct cloth_scratch *s = cloth->scratch;
-	const int *first = &s->bend_first[pass->first_group + part];
+	const int *first = &s->bends_first[pass->first_group + part];
 	kernel_of(cloth->lanes)
-		->flatten(s->place, s->bend + first[0], first[1] - first[0],
-			  cloth->settings.flatness, pass->backwards);
+		->flatten(s->place, s->bends + first[0], s->any_firm ? s->firm + first[0] : NULL,
+			  first[1] - first[0], cloth->settings.flatness, pass->backwards);
 }
 
 /* All strips, then all cuts. */
@@ -52,5 +52,5 @@ long cloth_shape(struct cloth *cloth)
 	if (set->flatness <= 0.0f)
 		return units;
 	run(cloth, bend_group, cloth->sweep & 1);
-	return units + s->bend_first[GROUPS_MAX];
+	return units + s->bend_count;
 }

@@ -133,7 +133,8 @@ static void kernels(void)
 				      false);
 			shape = best_s(shape, start);
 			start = thread_s();
-			kernel->flatten(s->place, s->bend, s->bend_first[GROUPS_MAX], 0.02f, false);
+			kernel->flatten(s->place, s->bends, NULL, s->bends_first[GROUPS_MAX], 0.02f,
+					false);
 			flat = best_s(flat, start);
 		}
 		printf("  %d lanes: %6.1f M triangles/s  %6.1f M edges/s\n", forms[f],

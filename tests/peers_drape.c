@@ -106,7 +106,7 @@ static void kernels(struct cloth *cloth, int lanes, double shape_target, double 
 		kernel->shape(s->place, s->shape, s->shape_first[GROUPS_MAX], 0.9f, 1.0f, false);
 		shape_ms = least(shape_ms, start);
 		start = peers_ms();
-		kernel->flatten(s->place, s->bend, s->bend_first[GROUPS_MAX], 0.02f, false);
+		kernel->flatten(s->place, s->bends, NULL, s->bends_first[GROUPS_MAX], 0.02f, false);
 		flat_ms = least(flat_ms, start);
 	}
 	struct peers_row row = {.unit = "M/s",
