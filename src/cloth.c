@@ -19,6 +19,8 @@ static void init_order(struct cloth_scratch *s, struct arena *arena)
 	s->taken_placed = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
 	s->slot = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
 	s->slot_vertex = ARENA_ARRAY(arena, int, SLOT_FIRST + GARMENT_VERTICES_MAX);
+	s->at = ARENA_ARRAY(arena, uint32_t, GARMENT_VERTICES_MAX + BATCH);
+	s->whole = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX / BATCH + 1);
 	s->place = ARENA_ARRAY(arena, struct place, SLOT_FIRST + GARMENT_VERTICES_MAX);
 	s->shape = ARENA_ARRAY(arena, struct shape_batch, SHAPE_BATCHES_MAX);
 	s->bends = ARENA_ARRAY(arena, struct bends, BENDS_MAX);
@@ -53,8 +55,9 @@ static void init_levels(struct cloth_scratch *s, struct arena *arena)
 void cloth_init(struct cloth *cloth, struct arena *arena)
 {
 	memset(cloth, 0, sizeof *cloth);
-	cloth->position_m = ARENA_ARRAY(arena, struct v3, GARMENT_VERTICES_MAX);
-	cloth->previous_m = ARENA_ARRAY(arena, struct v3, GARMENT_VERTICES_MAX);
+	/* and those that would fill up the last batch */
+	cloth->position_m = ARENA_ARRAY(arena, struct v3, GARMENT_VERTICES_MAX + BATCH);
+	cloth->previous_m = ARENA_ARRAY(arena, struct v3, GARMENT_VERTICES_MAX + BATCH);
 	cloth->contact = ARENA_ARRAY(arena, struct contact, GARMENT_VERTICES_MAX);
 	cloth->placed = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
 	cloth->held = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
@@ -85,7 +88,7 @@ void cloth_init(struct cloth *cloth, struct arena *arena)
 	s->edge_owner = ARENA_ARRAY(arena, uint8_t, GARMENT_TRIANGLES_MAX);
 	s->stiff = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
 	s->track = ARENA_ARRAY(arena, struct body_track, GARMENT_VERTICES_MAX);
-	s->quiet = ARENA_ARRAY(arena, struct quiet, GARMENT_VERTICES_MAX);
+	s->quiet = ARENA_ARRAY(arena, struct quiet, GARMENT_VERTICES_MAX + BATCH);
 	s->face_quiet = ARENA_ARRAY(arena, struct face_quiet, GARMENT_TRIANGLES_MAX);
 	s->lift_m = ARENA_ARRAY(arena, float, GARMENT_VERTICES_MAX);
 	s->lift_way = ARENA_ARRAY(arena, struct v3, GARMENT_VERTICES_MAX);
@@ -251,36 +254,31 @@ static void put_place(struct place *place, struct v3 p)
 	*place = (struct place){p.x, p.y, p.z, 0.0f};
 }
 
-/* A part of the loop over all slots. */
-static struct particles particles_of(const struct cloth *cloth, int part, struct loop_part *slots)
+static struct particles particles_of(const struct cloth *cloth)
 {
-	struct cloth_scratch *s = cloth->scratch;
-	*slots = loop_part(s->slot_count - SLOT_FIRST, part);
-	slots->first += SLOT_FIRST;
-	return (struct particles){s->slot_vertex + slots->first, cloth->position_m,
-				  cloth->previous_m};
+	const struct cloth_scratch *s = cloth->scratch;
+	return (struct particles){s->at, s->whole, cloth->position_m, cloth->previous_m};
 }
 
-static void for_all_slots(struct cloth *cloth, crew_task *task)
+static void for_all_vertices(struct cloth *cloth, crew_task *task)
 {
-	crew_run(cloth->crew, task, cloth, loop_parts(cloth->scratch->slot_count - SLOT_FIRST));
+	crew_run(cloth->crew, task, cloth, loop_parts(cloth->garment->vertex_count));
 }
 
 /* A far body pulls drawn pieces; a near one pushes cloth away that is inflated. */
-static void drive(struct cloth *cloth, struct loop_part slots)
+static void drive(struct cloth *cloth, struct loop_part loop)
 {
 	struct cloth_scratch *s = cloth->scratch;
 	const struct cloth_settings *set = &cloth->settings;
-	for (int slot = slots.first; slot < slots.first + slots.count; slot++) {
-		int v = s->slot_vertex[slot];
+	for (int v = loop.first; v < loop.first + loop.count; v++) {
 		const struct contact *contact = &cloth->contact[v];
 		float out_m = contact->distance_m <= blown_m ? set->inflate_m : 0.0f;
 		if (contact->distance_m > far_m && cloth->piece_drawn[cloth->garment->piece[v]])
 			out_m -= set->attract_m;
-		if (out_m == 0.0f || contact->triangle < 0)
+		if (out_m == 0.0f || s->at[v] == PLACE_NONE || contact->triangle < 0)
 			continue;
-		struct v3 p = place_v3(&s->place[slot]);
-		put_place(&s->place[slot], v3_mad(p, contact->normal, out_m));
+		struct place *place = &s->place[s->slot[v]];
+		put_place(place, v3_mad(place_v3(place), contact->normal, out_m));
 	}
 }
 
@@ -289,13 +287,13 @@ static void predict(void *context, int part)
 {
 	struct cloth *cloth = context;
 	const struct cloth_settings *set = &cloth->settings;
-	struct loop_part slots;
-	struct particles particles = particles_of(cloth, part, &slots);
+	struct loop_part loop = loop_part(cloth->garment->vertex_count, part);
+	struct particles particles = particles_of(cloth);
 	kernel_of(cloth->lanes)
-		->predict(cloth->scratch->place + slots.first, &particles, slots.count,
-			  set->momentum, set->step_max_m, set->gravity_m);
+		->predict(cloth->scratch->place, &particles, loop.first, loop.count, set->momentum,
+			  set->step_max_m, set->gravity_m);
 	if (set->attract_m > 0.0f || set->inflate_m > 0.0f)
-		drive(cloth, slots);
+		drive(cloth, loop);
 }
 
 /* Both sides of a seam go half the way towards each other, at most seam_step_m in a sweep. */
@@ -320,17 +318,24 @@ static long close_seams(struct cloth *cloth)
 	return cloth->garment->pair_count;
 }
 
+static bool any_held(const struct cloth *cloth, struct loop_part loop)
+{
+	uint8_t any = 0;
+	for (int v = loop.first; v < loop.first + loop.count; v++)
+		any |= cloth->held[v];
+	return any;
+}
+
 /* Held particles go to their goals. */
-static void pull_held(struct cloth *cloth, struct loop_part slots)
+static void pull_held(struct cloth *cloth, struct loop_part loop)
 {
 	struct cloth_scratch *s = cloth->scratch;
-	for (int slot = slots.first; slot < slots.first + slots.count; slot++) {
-		int v = s->slot_vertex[slot];
-		if (!cloth->held[v])
+	for (int v = loop.first; v < loop.first + loop.count; v++) {
+		if (!cloth->held[v] || s->at[v] == PLACE_NONE)
 			continue;
-		struct v3 p = place_v3(&s->place[slot]);
+		struct place *place = &s->place[s->slot[v]];
 		float share = cloth->held[v] > 1 ? 0.9f : 0.5f;
-		put_place(&s->place[slot], v3_lerp(p, cloth->goal_m[v], share));
+		put_place(place, v3_lerp(place_v3(place), cloth->goal_m[v], share));
 	}
 }
 
@@ -338,20 +343,22 @@ static void pull_held(struct cloth *cloth, struct loop_part slots)
 static void put_back(void *context, int part)
 {
 	struct cloth *cloth = context;
-	struct loop_part slots;
-	struct particles particles = particles_of(cloth, part, &slots);
-	pull_held(cloth, slots);
+	struct loop_part loop = loop_part(cloth->garment->vertex_count, part);
+	struct particles particles = particles_of(cloth);
+	if (any_held(cloth, loop))
+		pull_held(cloth, loop);
 	kernel_of(cloth->lanes)
-		->put_back(cloth->scratch->place + slots.first, &particles, slots.count);
+		->put_back(cloth->scratch->place, &particles, loop.first, loop.count);
 }
 
 /* No particle goes farther than step_max_m in a sweep, so that none can pass through a limb. */
 static void bound_steps(void *context, int part)
 {
 	struct cloth *cloth = context;
-	struct loop_part slots;
-	struct particles particles = particles_of(cloth, part, &slots);
-	kernel_of(cloth->lanes)->bound(&particles, slots.count, cloth->settings.step_max_m);
+	struct loop_part loop = loop_part(cloth->garment->vertex_count, part);
+	struct particles particles = particles_of(cloth);
+	kernel_of(cloth->lanes)
+		->bound(&particles, loop.first, loop.count, cloth->settings.step_max_m);
 }
 
 static long sweep(struct cloth *cloth)
@@ -359,15 +366,15 @@ static long sweep(struct cloth *cloth)
 	long units = cloth->garment->vertex_count;
 	MUST(cloth->built);
 	cloth_take(cloth);
-	for_all_slots(cloth, predict);
+	for_all_vertices(cloth, predict);
 	units += close_seams(cloth);
 	units += cloth_levels(cloth);
 	units += cloth_shape(cloth);
-	for_all_slots(cloth, put_back);
+	for_all_vertices(cloth, put_back);
 	if (cloth->settings.open)
 		units += cloth_hinges(cloth);
 	units += cloth_self(cloth);
-	for_all_slots(cloth, bound_steps);
+	for_all_vertices(cloth, bound_steps);
 	if (cloth->settings.faces)
 		units += cloth_contact_faces(cloth, cloth->sweep % FACE_SLICES, FACE_SLICES);
 	units += cloth_contact(cloth);

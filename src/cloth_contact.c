@@ -203,13 +203,16 @@ static void touch_part(void *context, int part)
 {
 	struct contact_pass *pass = context;
 	struct cloth *cloth = pass->cloth;
-	const struct quiet *quiet = cloth->scratch->quiet;
+	const struct kernel *kernel = kernel_of(cloth->lanes);
 	struct loop_part loop = loop_part(cloth->garment->vertex_count, part);
 	long units = 0;
-	for (int v = loop.first; v < loop.first + loop.count; v++) {
-		struct v3 gone = v3_sub(cloth->position_m[v], quiet[v].at_m);
-		if (!(v3_dot(gone, gone) < quiet[v].way2_m2) && is_particle(cloth, v))
-			units += cloth_touch(cloth, v);
+	for (int first = loop.first; first < loop.first + loop.count; first += BATCH) {
+		unsigned stirred = kernel->stirred(cloth->position_m + first,
+						   cloth->scratch->quiet + first);
+		for (int v = first; stirred; v++, stirred >>= 1)
+			if ((stirred & 1) && v < cloth->garment->vertex_count &&
+			    is_particle(cloth, v))
+				units += cloth_touch(cloth, v);
 	}
 	pass->units[part] = units;
 }

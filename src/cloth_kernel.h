@@ -57,9 +57,17 @@ struct spread {
 };
 
 /* The particles of a sweep in the public arrays: where they are, and where it began. */
+#define PLACE_NONE UINT32_MAX
 struct particles {
-	const int *vertex; /* per slot */
+	const uint32_t *at;   /* per vertex: its place, PLACE_NONE: it has none of its own */
+	const uint8_t *whole; /* per BATCH vertices: all have one */
 	struct v3 *position_m, *previous_m;
+};
+
+/* Within so far (squared) of a place a particle neither touches the body nor needs a new look. */
+struct quiet {
+	struct v3 at_m;
+	float way2_m2;
 };
 
 struct kernel {
@@ -74,14 +82,18 @@ struct kernel {
 	/* Every particle moves by the weighted moves of its nodes. */
 	void (*spread)(struct place *x, const struct spread *spread, int count,
 		       const struct place *move);
-	/* `count` slots take their particles' positions, moved on by `momentum` of the last step,
-	 * at most step_max_m, and by fall_m downwards; previous_m is where the sweep begins. */
-	void (*predict)(struct place *x, const struct particles *particles, int count,
+	/* The places of `count` vertices from `first` on, a multiple of BATCH, take their
+	 * positions, moved on by `momentum` of the last step, at most step_max_m, and by fall_m
+	 * downwards; previous_m is where the sweep begins. */
+	void (*predict)(struct place *x, const struct particles *particles, int first, int count,
 			float momentum, float step_max_m, float fall_m);
-	/* The particles take their slots' places. */
-	void (*put_back)(const struct place *x, const struct particles *particles, int count);
-	/* No particle is farther than step_max_m from where the sweep began. */
-	void (*bound)(const struct particles *particles, int count, float step_max_m);
+	/* The vertices take their places' positions. */
+	void (*put_back)(const struct place *x, const struct particles *particles, int first,
+			 int count);
+	/* No vertex is farther than step_max_m from where the sweep began. */
+	void (*bound)(const struct particles *particles, int first, int count, float step_max_m);
+	/* Which of BATCH vertices are no longer quiet: a bit each. */
+	unsigned (*stirred)(const struct v3 *position_m, const struct quiet *quiet);
 };
 
 /* The widest form that has at most `lanes` lanes and that this build knows. */

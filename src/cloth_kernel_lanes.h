@@ -158,60 +158,123 @@ LANES_TARGET static void spread_moves(struct place *x, const struct spread *spre
 		spread_part(x, spread, i, int_min(i + 1, count - 1), move);
 }
 
-/* ---- particles in the public arrays ---- */
+/* ---- particles in the public arrays ----
+ *
+ * A row of vertices as they lie there has the next one's x in its last lane. */
 
-LANES_INLINE four load_v3(const struct v3 *from)
+LANES_INLINE lanes squared_length(const row rows[ROWS])
 {
-	return four_of(from->x, from->y, from->z);
+	lanes axis[3];
+	rows_to_lanes(rows, axis);
+	return dot(axis, axis);
 }
 
-LANES_INLINE float squared_length(four a)
+LANES_TARGET static void predict_one(struct place *x, const struct particles *particles, int v,
+				     float momentum, float step_max_m, float fall_m)
 {
-	struct v3 b = four_v3(a);
-	return b.x * b.x + b.y * b.y + b.z * b.z;
+	struct v3 p = particles->position_m[v];
+	struct v3 step = v3_scale(v3_sub(p, particles->previous_m[v]), momentum);
+	float squared = v3_dot(step, step);
+	if (particles->at[v] == PLACE_NONE)
+		return;
+	if (squared > step_max_m * step_max_m)
+		step = v3_scale(step, step_max_m / sqrtf(squared));
+	particles->previous_m[v] = p;
+	place_put(x, particles->at[v],
+		  (struct v3){p.x + step.x, p.y + step.y - fall_m, p.z + step.z});
 }
 
-LANES_TARGET static void predict(struct place *x, const struct particles *particles, int count,
-				 float momentum, float step_max_m, float fall_m)
+/* LANES vertices from v on; false: one of them goes too far. */
+LANES_INLINE bool predict_part(struct place *x, const struct particles *particles, int v,
+			       float momentum, float step_max_m, row fall)
 {
-	float squared_max = step_max_m * step_max_m;
-	four fall = four_of(0.0f, fall_m, 0.0f);
-	for (int i = 0; i < count; i++) {
-		int v = particles->vertex[i];
-		four p = load_v3(&particles->position_m[v]);
-		four step = four_sub(p, load_v3(&particles->previous_m[v]));
-		step = four_scale(step, momentum);
-		float squared = squared_length(step);
-		if (squared > squared_max)
-			step = four_scale(step, step_max_m / sqrtf(squared));
-		particles->previous_m[v] = particles->position_m[v];
-		place_store(&x[i], 0, four_sub(four_add(p, step), fall));
+	row p[ROWS], step[ROWS];
+	vertices_load(p, particles->position_m + v);
+	vertices_load(step, particles->previous_m + v);
+	row share = row_of(momentum, momentum);
+	UNROLL for (int i = 0; i < ROWS; i++) step[i] = row_mul(row_sub(p[i], step[i]), share);
+	if (lanes_below(lanes_all(step_max_m * step_max_m), squared_length(step)))
+		return false;
+	UNROLL for (int i = 0; i < ROWS; i++)
+		step[i] = row_cut(row_sub(row_add(p[i], step[i]), fall));
+	rows_store(step, x, particles->at + v);
+	memcpy(particles->previous_m + v, particles->position_m + v, LANES * sizeof(struct v3));
+	return true;
+}
+
+LANES_TARGET static void predict(struct place *x, const struct particles *particles, int first,
+				 int count, float momentum, float step_max_m, float fall_m)
+{
+	row fall = row_along(0.0f, fall_m, 0.0f);
+	for (int v = first; v < first + count; v += LANES) {
+		int end = int_min(v + LANES, first + count);
+		if (!(particles->whole[v / BATCH] &&
+		      predict_part(x, particles, v, momentum, step_max_m, fall)))
+			for (int i = v; i < end; i++)
+				predict_one(x, particles, i, momentum, step_max_m, fall_m);
 	}
 }
 
 LANES_TARGET static void put_back(const struct place *x, const struct particles *particles,
-				  int count)
+				  int first, int count)
 {
-	for (int i = 0; i < count; i++)
-		particles->position_m[particles->vertex[i]] = four_v3(place_load(&x[i], 0));
+	for (int v = first; v < first + count; v += BATCH) {
+		int end = int_min(v + BATCH, first + count);
+		if (particles->whole[v / BATCH]) {
+			vertices_store(particles->position_m + v, x, particles->at + v);
+			continue;
+		}
+		for (int i = v; i < end; i++)
+			if (particles->at[i] != PLACE_NONE)
+				particles->position_m[i] = place_at(x, particles->at[i]);
+	}
 }
 
-LANES_TARGET static void bound(const struct particles *particles, int count, float step_max_m)
+LANES_TARGET static void bound_one(const struct particles *particles, int v, float step_max_m)
 {
-	float squared_max = step_max_m * step_max_m;
-	for (int i = 0; i < count; i++) {
-		int v = particles->vertex[i];
-		four start = load_v3(&particles->previous_m[v]);
-		four step = four_sub(load_v3(&particles->position_m[v]), start);
-		float squared = squared_length(step);
-		if (squared > squared_max) {
-			step = four_scale(step, step_max_m / sqrtf(squared));
-			particles->position_m[v] = four_v3(four_add(start, step));
-		}
+	struct v3 start = particles->previous_m[v];
+	struct v3 step = v3_sub(particles->position_m[v], start);
+	float squared = v3_dot(step, step);
+	if (particles->at[v] != PLACE_NONE && squared > step_max_m * step_max_m)
+		particles->position_m[v] = v3_add(start,
+						  v3_scale(step, step_max_m / sqrtf(squared)));
+}
+
+LANES_INLINE bool within(const struct particles *particles, int v, float step_max_m)
+{
+	row p[ROWS], step[ROWS];
+	vertices_load(p, particles->position_m + v);
+	vertices_load(step, particles->previous_m + v);
+	UNROLL for (int i = 0; i < ROWS; i++) step[i] = row_sub(p[i], step[i]);
+	return !lanes_below(lanes_all(step_max_m * step_max_m), squared_length(step));
+}
+
+LANES_TARGET static void bound(const struct particles *particles, int first, int count,
+			       float step_max_m)
+{
+	for (int v = first; v < first + count; v += LANES) {
+		int end = int_min(v + LANES, first + count);
+		if (!(particles->whole[v / BATCH] && within(particles, v, step_max_m)))
+			for (int i = v; i < end; i++)
+				bound_one(particles, i, step_max_m);
 	}
+}
+
+LANES_TARGET static unsigned stirred(const struct v3 *position_m, const struct quiet *quiet)
+{
+	unsigned quiet_ones = 0;
+	for (int from = 0; from < BATCH; from += LANES) {
+		row p[ROWS], at[ROWS];
+		vertices_load(p, position_m + from);
+		quiet_load(at, quiet + from);
+		lanes way2 = rows_last(at);
+		UNROLL for (int i = 0; i < ROWS; i++) p[i] = row_sub(p[i], at[i]);
+		quiet_ones |= lanes_below(squared_length(p), way2) << from;
+	}
+	return ~quiet_ones & ((1u << BATCH) - 1);
 }
 
 #define KERNEL                                                                                     \
 	{                                                                                          \
-		shape, flatten, spread_moves, predict, put_back, bound                             \
+		shape, flatten, spread_moves, predict, put_back, bound, stirred                    \
 	}

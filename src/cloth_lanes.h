@@ -26,6 +26,17 @@
 #include <arm_neon.h>
 #endif
 
+LANES_INLINE struct v3 place_at(const struct place *x, uint32_t at)
+{
+	const struct place *p = (const struct place *)((const char *)x + at);
+	return (struct v3){p->x, p->y, p->z};
+}
+
+LANES_INLINE void place_put(struct place *x, uint32_t at, struct v3 p)
+{
+	*(struct place *)((char *)x + at) = (struct place){p.x, p.y, p.z, 0.0f};
+}
+
 #if LANES == 1
 
 typedef float lanes;
@@ -72,31 +83,6 @@ LANES_INLINE row row_mul(row a, row b)
 	return (row){a.x * b.x, a.y * b.y, a.z * b.z, a.w * b.w};
 }
 
-LANES_INLINE four four_add(four a, four b)
-{
-	return row_add(a, b);
-}
-
-LANES_INLINE four four_sub(four a, four b)
-{
-	return row_sub(a, b);
-}
-
-LANES_INLINE four four_scale(four a, float s)
-{
-	return (row){a.x * s, a.y * s, a.z * s, a.w * s};
-}
-
-LANES_INLINE four four_of(float x, float y, float z)
-{
-	return (row){x, y, z, 0.0f};
-}
-
-LANES_INLINE struct v3 four_v3(four a)
-{
-	return (struct v3){a.x, a.y, a.z};
-}
-
 LANES_INLINE four place_load(const struct place *x, uint32_t at)
 {
 	return *(const struct place *)((const char *)x + at);
@@ -138,6 +124,42 @@ LANES_INLINE void rows_load(row rows[ROWS], const struct place *x, const uint32_
 LANES_INLINE void rows_store(const row rows[ROWS], struct place *x, const uint32_t *at)
 {
 	place_store(x, at[0], rows[0]);
+}
+
+LANES_INLINE row row_along(float x, float y, float z)
+{
+	return (row){x, y, z, 0.0f};
+}
+
+LANES_INLINE row row_cut(row r)
+{
+	return (row){r.x, r.y, r.z, 0.0f};
+}
+
+LANES_INLINE void vertices_load(row rows[ROWS], const struct v3 *from)
+{
+	rows[0] = (row){from->x, from->y, from->z, 0.0f};
+}
+
+LANES_INLINE void quiet_load(row rows[ROWS], const struct quiet *from)
+{
+	rows[0] = (row){from->at_m.x, from->at_m.y, from->at_m.z, from->way2_m2};
+}
+
+LANES_INLINE lanes rows_last(const row rows[ROWS])
+{
+	return rows[0].w;
+}
+
+LANES_INLINE void vertices_store(struct v3 *to, const struct place *x, const uint32_t *at)
+{
+	for (int i = 0; i < BATCH; i++)
+		to[i] = place_at(x, at[i]);
+}
+
+LANES_INLINE unsigned lanes_below(lanes a, lanes b)
+{
+	return a < b;
 }
 
 LANES_INLINE void rows_to_lanes(const row rows[ROWS], lanes axis[3])
@@ -225,31 +247,6 @@ LANES_INLINE row row_mul(row a, row b)
 	return a * b;
 }
 
-LANES_INLINE four four_add(four a, four b)
-{
-	return a + b;
-}
-
-LANES_INLINE four four_sub(four a, four b)
-{
-	return a - b;
-}
-
-LANES_INLINE four four_scale(four a, float s)
-{
-	return a * s;
-}
-
-LANES_INLINE four four_of(float x, float y, float z)
-{
-	return (four){x, y, z, 0.0f};
-}
-
-LANES_INLINE struct v3 four_v3(four a)
-{
-	return (struct v3){a[0], a[1], a[2]};
-}
-
 LANES_INLINE four place_load(const struct place *x, uint32_t at)
 {
 	return *(const four *)((const char *)x + at);
@@ -258,6 +255,30 @@ LANES_INLINE four place_load(const struct place *x, uint32_t at)
 LANES_INLINE void place_store(struct place *x, uint32_t at, four a)
 {
 	*(four *)((char *)x + at) = a;
+}
+
+/* Four numbers as they lie in the public arrays, on no particular border. */
+typedef float loose __attribute__((vector_size(16), aligned(4), may_alias));
+
+/* One after the other: what the last lane carries into the next vertex is written over by it. */
+LANES_INLINE void vertices_store(struct v3 *to, const struct place *x, const uint32_t *at)
+{
+	UNROLL for (int i = 0; i < BATCH - 1; i++) * (loose *)(to + i) = place_load(x, at[i]);
+	to[BATCH - 1] = place_at(x, at[BATCH - 1]);
+}
+
+LANES_INLINE unsigned lanes_below(lanes a, lanes b)
+{
+#if LANES == 8
+	return (unsigned)_mm256_movemask_ps(_mm256_cmp_ps((__m256)a, (__m256)b, _CMP_LT_OQ));
+#elif defined __SSE2__
+	return (unsigned)_mm_movemask_ps(_mm_cmplt_ps((__m128)a, (__m128)b));
+#else
+	unsigned below = 0;
+	for (int i = 0; i < LANES; i++)
+		below |= (unsigned)(a[i] < b[i]) << i;
+	return below;
+#endif
 }
 
 #if LANES == 4
@@ -281,6 +302,25 @@ LANES_INLINE void row_store(struct place *x, uint32_t a, uint32_t b, row r)
 }
 
 #define SPLAT(r, c) __builtin_shufflevector(r, r, c, c, c, c)
+LANES_INLINE row row_along(float x, float y, float z)
+{
+	return (row){x, y, z, 0.0f};
+}
+
+LANES_INLINE row row_cut(row r)
+{
+	return __builtin_shufflevector(r, lanes_all(0.0f), 0, 1, 2, 4);
+}
+
+LANES_INLINE void vertices_load(row rows[ROWS], const struct v3 *from)
+{
+	UNROLL for (int i = 0; i < ROWS; i++) rows[i] = *(const loose *)(from + i);
+}
+
+LANES_INLINE void quiet_load(row rows[ROWS], const struct quiet *from)
+{
+	UNROLL for (int i = 0; i < ROWS; i++) rows[i] = *(const loose *)(from + i);
+}
 
 LANES_INLINE void rows_load(row rows[ROWS], const struct place *x, const uint32_t *at)
 {
@@ -299,6 +339,8 @@ LANES_INLINE void rows_store(const row rows[ROWS], struct place *x, const uint32
 
 #else /* two fours side by side: lane i beside lane i + 4 */
 
+#define JOIN(a, b) __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7)
+
 LANES_INLINE row row_of(float a, float b)
 {
 	return (row){a, a, a, a, b, b, b, b};
@@ -306,7 +348,7 @@ LANES_INLINE row row_of(float a, float b)
 
 LANES_INLINE row row_load(const struct place *x, uint32_t a, uint32_t b)
 {
-	return __builtin_shufflevector(place_load(x, a), place_load(x, b), 0, 1, 2, 3, 4, 5, 6, 7);
+	return JOIN(place_load(x, a), place_load(x, b));
 }
 
 LANES_INLINE void row_store(struct place *x, uint32_t a, uint32_t b, row r)
@@ -316,6 +358,28 @@ LANES_INLINE void row_store(struct place *x, uint32_t a, uint32_t b, row r)
 }
 
 #define SPLAT(r, c) __builtin_shufflevector(r, r, c, c, c, c, 4 + c, 4 + c, 4 + c, 4 + c)
+
+LANES_INLINE row row_along(float x, float y, float z)
+{
+	return (row){x, y, z, 0.0f, x, y, z, 0.0f};
+}
+
+LANES_INLINE row row_cut(row r)
+{
+	return __builtin_shufflevector(r, lanes_all(0.0f), 0, 1, 2, 8, 4, 5, 6, 8);
+}
+
+LANES_INLINE void vertices_load(row rows[ROWS], const struct v3 *from)
+{
+	UNROLL for (int i = 0; i < ROWS; i++)
+		rows[i] = JOIN(*(const loose *)(from + i), *(const loose *)(from + i + 4));
+}
+
+LANES_INLINE void quiet_load(row rows[ROWS], const struct quiet *from)
+{
+	UNROLL for (int i = 0; i < ROWS; i++)
+		rows[i] = JOIN(*(const loose *)(from + i), *(const loose *)(from + i + 4));
+}
 
 LANES_INLINE void rows_load(row rows[ROWS], const struct place *x, const uint32_t *at)
 {
@@ -350,6 +414,12 @@ LANES_INLINE void rows_to_lanes(const row rows[ROWS], lanes axis[3])
 	axis[0] = LOW_HALVES(xy_01, xy_23);
 	axis[1] = HIGH_HALVES(xy_01, xy_23);
 	axis[2] = LOW_HALVES(z_01, z_23);
+}
+
+/* The last of every place. */
+LANES_INLINE lanes rows_last(const row rows[ROWS])
+{
+	return HIGH_HALVES(HIGH_PAIRS(rows[0], rows[1]), HIGH_PAIRS(rows[2], rows[3]));
 }
 
 LANES_INLINE void lanes_to_rows(const lanes axis[3], row rows[ROWS])

@@ -214,8 +214,15 @@ static void take_slots(struct cloth *cloth)
 		s->slot_vertex[s->slot_count] = v;
 		s->slot[v] = s->slot_count++;
 	}
-	for (int v = 0; v < cloth->garment->vertex_count; v++)
+	for (int v = 0; v < cloth->garment->vertex_count; v++) {
+		s->at[v] = s->slot[v] < 0 ? PLACE_NONE : place_offset(s->slot[v]);
 		s->slot[v] = s->slot[cloth->particle[v]];
+	}
+	for (int first = 0; first < cloth->garment->vertex_count; first += BATCH) {
+		s->whole[first / BATCH] = first + BATCH <= cloth->garment->vertex_count;
+		for (int v = first; v < first + BATCH; v++)
+			s->whole[first / BATCH] &= s->at[v] != PLACE_NONE;
+	}
 }
 
 static void put_shape(struct shape_batch *batch, int lane, const struct rest *rest,

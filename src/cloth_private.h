@@ -70,12 +70,6 @@ struct fold {
 	int hinge_first, hinge_end;
 };
 
-/* Within so far (squared) of a place a particle neither touches the body nor needs a new look. */
-struct quiet {
-	struct v3 at_m;
-	float way2_m2;
-};
-
 /* The same for a face, by how far its corners moved since it was looked at: up to far_m it has
  * nothing to say to the lifts of its corners, up to near_m only that it needs them. */
 struct face_quiet {
@@ -122,6 +116,8 @@ struct cloth_scratch {
 	int slot_count;        /* placed particles as the kernels see them; pads first */
 	int *slot;             /* per vertex, -1: not placed */
 	int *slot_vertex;
+	uint32_t *at;        /* per vertex, and ... */
+	uint8_t *whole;      /* ... per BATCH of them, for struct particles */
 	struct place *place; /* per slot */
 	struct shape_batch *shape;
 	int shape_first[GROUPS_MAX + 1];
