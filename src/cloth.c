@@ -71,6 +71,7 @@ void cloth_init(struct cloth *cloth, struct arena *arena)
 	cloth->flat = ARENA_ARRAY(arena, struct flat, GARMENT_EDGES_MAX);
 	struct cloth_scratch *s = ARENA_ARRAY(arena, struct cloth_scratch, 1);
 	s->rest = ARENA_ARRAY(arena, struct rest, GARMENT_TRIANGLES_MAX);
+	s->turn = ARENA_ARRAY(arena, struct turn, GARMENT_TRIANGLES_MAX);
 	s->edge_first = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX + 2);
 	s->edge_triangle = ARENA_ARRAY(arena, int, 3 * GARMENT_TRIANGLES_MAX);
 	s->flipped = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX);
@@ -376,7 +377,7 @@ static long sweep(struct cloth *cloth)
 	units += cloth_self(cloth);
 	for_all_vertices(cloth, bound_steps);
 	if (cloth->settings.faces)
-		units += cloth_contact_faces(cloth, cloth->sweep % FACE_SLICES, FACE_SLICES);
+		units += cloth_contact_faces(cloth, cloth->sweep % SLICES, SLICES);
 	units += cloth_contact(cloth);
 	units += cloth_clamp(cloth);
 	units += cloth_self_order(cloth);

@@ -29,6 +29,11 @@ static void build_rest(struct cloth *cloth)
 			 d1.y * d1.y + d2.y * d2.y},
 			{2.0f * d1.x * d2.x, d1.x * d2.y + d1.y * d2.x, 2.0f * d1.y * d2.y},
 		};
+		struct turn *turn = &s->turn[sliced(garment->triangle_count, t)];
+		for (int k = 0; k < 3; k++) {
+			turn->v[k] = cloth->triangle[t].v[k];
+			turn->metric[k] = s->rest[t].metric[k];
+		}
 	}
 }
 

@@ -5,7 +5,6 @@
 #include "cloth_private.h"
 
 enum {
-	SLICES = 10, /* a frame's sweeps: all triangles once a frame */
 	PASSES = 3,
 	LOOK_UNITS = 1,
 	CLAMP_UNITS = 2,
@@ -13,6 +12,7 @@ enum {
 
 static const float move_most_m = 0.001f; /* of a corner in a pass */
 static const float calm_m = 0.002f;      /* farther in a sweep: it moves */
+static const float doubt = 1e-3f;        /* far more than roundings come to */
 static const float watch_share = 0.8f;   /* of the bound: from there on a triangle is worked */
 
 /* Cloth that still moves may be on its way round a limb, and is let go its way. */
@@ -64,12 +64,31 @@ static void clamp(struct cloth *cloth, int t, float bound)
 	move(cloth, p[2], v3_scale(back, along_2 - middle));
 }
 
+/* Is cloth_stretch below `least`, beyond doubt? The same sums, but no root: with mean m of the
+ * eigenvalues and q the square of what they differ from it, m + sqrt(q) < e where q < (e - m)^2. */
+static bool slack(const struct cloth *cloth, const struct turn *turn, float least)
+{
+	const int *v = turn->v;
+	const float *k = turn->metric;
+	const struct v3 *x = cloth->position_m;
+	struct v3 e1 = v3_sub(x[v[1]], x[v[0]]), e2 = v3_sub(x[v[2]], x[v[0]]);
+	float g11 = v3_dot(e1, e1), g12 = v3_dot(e1, e2), g22 = v3_dot(e2, e2);
+	float h11 = k[0] * g11 + k[1] * g12, h12 = k[0] * g12 + k[1] * g22;
+	float h21 = k[1] * g11 + k[2] * g12, h22 = k[1] * g12 + k[2] * g22;
+	float half = 0.5f * (h11 - h22), squared = half * half + h12 * h21;
+	float room = (1.0f + least) * (1.0f + least) * (1.0f - doubt) - 0.5f * (h11 + h22);
+	return room > 0.0f && squared < room * room;
+}
+
 /* Those of a slice that are near the bound. */
 static void watch(struct cloth *cloth, int slice, float least)
 {
 	struct cloth_scratch *s = cloth->scratch;
-	for (int t = slice; t < cloth->garment->triangle_count; t += SLICES)
-		if (triangle_placed(cloth, t) && cloth_stretch(cloth, t) > least)
+	int triangles = cloth->garment->triangle_count;
+	const struct turn *turn = &s->turn[sliced(triangles, slice)];
+	for (int t = slice; t < triangles; t += SLICES, turn++)
+		if (!slack(cloth, turn, least) && triangle_placed(cloth, t) &&
+		    cloth_stretch(cloth, t) > least)
 			s->taut[s->next_taut_count++] = t;
 	if (slice < SLICES - 1)
 		return;

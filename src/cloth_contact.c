@@ -412,10 +412,8 @@ static void face_group(void *context, int part)
 	long units = 0;
 	int count = first[1] - first[0];
 	for (int i = pass->slice; i < count; i += pass->slices) {
-		int at = i % FACE_SLICES * (count / FACE_SLICES) + i / FACE_SLICES +
-			 int_min(i % FACE_SLICES, count % FACE_SLICES);
 		units += look_at_face(pass->cloth, s->face[first[0] + i],
-				      &s->face_quiet[first[0] + at]);
+				      &s->face_quiet[first[0] + sliced(count, i)]);
 	}
 	pass->units[part] = units;
 }

@@ -8,7 +8,6 @@
 #include "cloth_private.h"
 
 enum {
-	SLICES = 10,    /* a frame's sweeps: all triangles once a frame */
 	TURN_TIRES = 4, /* turning for a round costs a triangle so much, and facing out for one
 			   gives 1 back */
 	TIRED = 240,
@@ -40,21 +39,35 @@ static struct v3 normal_of(const struct cloth *cloth, int t)
 	return v3_normalize(v3_cross(v3_sub(x[v[1]], x[v[0]]), v3_sub(x[v[2]], x[v[0]])));
 }
 
-/* Cheap for the many that face out. */
-static enum facing facing_of(const struct cloth *cloth, int t, long *units)
+/* Beyond doubt, without the roots of the normals' lengths. */
+static bool surely_out(const struct cloth *cloth, const int *v, struct v3 outward)
 {
-	const int *v = cloth->triangle[t].v;
+	const struct v3 *x = cloth->position_m;
+	struct v3 normal = v3_cross(v3_sub(x[v[1]], x[v[0]]), v3_sub(x[v[2]], x[v[0]]));
+	float along = v3_dot(normal, outward), lengths2 = v3_dot(normal, normal);
+	lengths2 *= v3_dot(outward, outward);
+	return along > 0.0f && lengths2 > 1e-20f &&
+	       along * along > 1.1f * out_cosine * out_cosine * lengths2;
+}
+
+/* Cheap for the many that face out. */
+static enum facing facing_of(const struct cloth *cloth, int t, const int *v, long *units)
+{
 	struct v3 outward = {0.0f, 0.0f, 0.0f};
 	float near_m = 1.0f;
-	if (!triangle_placed(cloth, t))
+	if (!cloth->scratch->all_placed && !triangle_placed(cloth, t))
 		return FACING_SIDE;
 	*units += LOOK_UNITS;
 	for (int k = 0; k < 3; k++) {
 		outward = v3_add(outward, cloth->contact[v[k]].normal);
 		near_m = float_min(near_m, cloth->contact[v[k]].distance_m);
 	}
+	if (near_m > out_near_m)
+		return FACING_SIDE;
+	if (surely_out(cloth, v, outward))
+		return FACING_OUT;
 	float cosine = v3_dot(normal_of(cloth, t), v3_normalize(outward));
-	if (near_m > out_near_m || (cosine >= 0.0f && cosine < out_cosine))
+	if (cosine >= 0.0f && cosine < out_cosine)
 		return FACING_SIDE;
 	if (cosine > 0.0f)
 		return FACING_OUT;
@@ -282,7 +295,8 @@ static bool swing(struct cloth *cloth, const struct fold *fold)
 long cloth_hinges(struct cloth *cloth)
 {
 	struct cloth_scratch *s = cloth->scratch;
-	int slice = cloth->sweep % SLICES;
+	int slice = cloth->sweep % SLICES, triangles = cloth->garment->triangle_count;
+	const struct turn *turn = &s->turn[sliced(triangles, slice)];
 	long units = 0;
 	bool swings = false;
 	for (int f = 0; f < s->open_count; f++) {
@@ -295,8 +309,8 @@ long cloth_hinges(struct cloth *cloth)
 		for (int i = fold->hinge_first; i < fold->hinge_end; i++)
 			roll(cloth, s->hinge[i]);
 	}
-	for (int t = slice; t < cloth->garment->triangle_count; t += SLICES) {
-		s->facing[t] = (uint8_t)facing_of(cloth, t, &units);
+	for (int t = slice; t < triangles; t += SLICES, turn++) {
+		s->facing[t] = (uint8_t)facing_of(cloth, t, turn->v, &units);
 		s->facing_in += s->facing[t] == FACING_IN;
 		if (s->facing[t] == FACING_OUT && s->turned[t] > 0)
 			s->turned[t]--;

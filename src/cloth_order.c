@@ -214,6 +214,7 @@ static void take_slots(struct cloth *cloth)
 		s->slot_vertex[s->slot_count] = v;
 		s->slot[v] = s->slot_count++;
 	}
+	s->all_placed = s->slot_count - SLOT_FIRST == s->ranked_count;
 	for (int v = 0; v < cloth->garment->vertex_count; v++) {
 		s->at[v] = s->slot[v] < 0 ? PLACE_NONE : place_offset(s->slot[v]);
 		s->slot[v] = s->slot[cloth->particle[v]];

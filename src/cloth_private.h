@@ -13,7 +13,7 @@ enum {
 	SHAPE_BATCHES_MAX = GARMENT_TRIANGLES_MAX / BATCH + GROUPS_MAX * COLOURS + SINGLES,
 	BENDS_MAX = GARMENT_EDGES_MAX,  /* the last colour's edges may all be alone */
 	SLOT_FIRST = STRIPS_MAX * PADS, /* every strip has its own pads */
-	FACE_SLICES = 10,               /* a frame's sweeps: all faces once a frame */
+	SLICES = 10,                    /* a frame's sweeps: all triangles once a frame */
 	LEVELS = 2,
 	LEVEL_PASSES = 2,
 	LEVEL_NODES_MAX = GARMENT_VERTICES_MAX / 8,
@@ -29,6 +29,18 @@ enum {
 struct rest {
 	float metric[3], grain[3];
 };
+
+/* What is looked at of a triangle that has its turn in a sweep. */
+struct turn {
+	int v[3];
+	float metric[3];
+};
+
+/* The triangles of a slice lie together in memory: of `count`, where the i-th is. */
+static inline int sliced(int count, int i)
+{
+	return i % SLICES * (count / SLICES) + i / SLICES + int_min(i % SLICES, count % SLICES);
+}
 
 /* Edge a-b with the two far corners c and d of its triangles: flat when sum k[i] x[v[i]] = 0; sum k
  * k = 1. */
@@ -100,6 +112,7 @@ struct build {
 struct cloth_scratch {
 	struct build build;
 	struct rest *rest; /* per triangle */
+	struct turn *turn; /* per triangle, sliced */
 
 	/* the order of work (cloth_order.c) */
 	int ranked_count; /* particles by neighbourhood */
@@ -116,8 +129,9 @@ struct cloth_scratch {
 	int slot_count;        /* placed particles as the kernels see them; pads first */
 	int *slot;             /* per vertex, -1: not placed */
 	int *slot_vertex;
-	uint32_t *at;        /* per vertex, and ... */
-	uint8_t *whole;      /* ... per BATCH of them, for struct particles */
+	uint32_t *at;   /* per vertex, and ... */
+	uint8_t *whole; /* ... per BATCH of them, for struct particles */
+	bool all_placed;
 	struct place *place; /* per slot */
 	struct shape_batch *shape;
 	int shape_first[GROUPS_MAX + 1];
