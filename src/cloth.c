@@ -23,6 +23,7 @@ static void init_order(struct cloth_scratch *s, struct arena *arena)
 	s->whole = ARENA_ARRAY(arena, uint8_t, GARMENT_VERTICES_MAX / BATCH + 1);
 	s->place = ARENA_ARRAY(arena, struct place, SLOT_FIRST + GARMENT_VERTICES_MAX);
 	s->shape = ARENA_ARRAY(arena, struct shape_batch, SHAPE_BATCHES_MAX);
+	s->grain = ARENA_ARRAY(arena, struct shape_grain, SHAPE_BATCHES_MAX);
 	s->bends = ARENA_ARRAY(arena, struct bends, BENDS_MAX);
 	s->firm = ARENA_ARRAY(arena, struct firm, BENDS_MAX);
 }

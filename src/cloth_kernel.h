@@ -15,7 +15,7 @@ enum {
 	KERNEL_LANES_MAX = 8,
 };
 
-/* A particle as the kernels see it: one aligned load. w stays 0. */
+/* A particle as the kernels see it: one aligned load. w is nobody's. */
 struct place {
 	_Alignas(16) float x;
 	float y, z, w;
@@ -30,9 +30,12 @@ static inline uint32_t place_offset(int slot)
 /* Triangles: corners, and the rest shape as two symmetric matrices (11, 12, 22). D is the inverse
  * of the flat edges [u1 u2] in the frame of the grain: metric = D D^T, grain = D [0 1; 1 0] D^T. */
 struct shape_batch {
-	uint32_t at[3][BATCH];
+	_Alignas(64) uint32_t at[3][BATCH];
 	float metric[3][BATCH];
-	float grain[3][BATCH];
+};
+
+struct shape_grain {
+	_Alignas(32) float grain[3][BATCH];
 };
 
 /* Two edges that share no particle, each with the far corners of its triangles: flat when sum k[i]
@@ -72,9 +75,10 @@ struct quiet {
 
 struct kernel {
 	/* Every triangle goes `share` of its way to its rest shape; `shear` (0..1) of its shear
-	 * counts as a fault, the rest is left. */
-	void (*shape)(struct place *x, const struct shape_batch *batch, int count, float share,
-		      float shear, bool backwards);
+	 * counts as a fault, the rest is left. Grain NULL: all counts. */
+	void (*shape)(struct place *x, const struct shape_batch *batch,
+		      const struct shape_grain *grain, int count, float share, float shear,
+		      bool backwards);
 	/* Every edge goes `share` of its way to flat, or `firm` if that is more; firm NULL: it is
 	 * nowhere. */
 	void (*flatten)(struct place *x, const struct bends *bends, const struct firm *firm,

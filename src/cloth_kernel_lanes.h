@@ -18,20 +18,11 @@ LANES_INLINE lanes dot(const lanes a[3], const lanes b[3])
  * F) and t = sqrt(tr F^T F + 2 d): S = (F^T F + d I) / t, det S = d (Franca 1989). So S^-1 = ((tr
  * F^T F
  * + d) I - F^T F) / (t d), and since D [u1 u2] = I all of D but K = D D^T falls out of M = D S^-1
- * [u1 u2]: with H = K G, tr F^T F = tr H, det F^T F = det H, and M = ((tr H + d) I - H) / (t d).
- *
- * Allowed shear turns the rest shape: D T^-1 for D, T = [1 q; q 1], 2 q the allowed part of f1 f2;
- * to first order K - 2 q D [0 1; 1 0] D^T. */
-LANES_INLINE void shape_matrix(const lanes g[3], const lanes metric[3], const lanes grain[3],
-			       lanes allow, lanes m[4])
+ * [u1 u2]: with H = K G, tr F^T F = tr H, det F^T F = det H, and M = ((tr H + d) I - H) / (t d). */
+LANES_INLINE void shape_matrix(const lanes g[3], const lanes k[3], lanes m[4])
 {
-	lanes mixed = grain[1] * g[1];
-	lanes shear = allow * ((grain[0] * g[0] + mixed) + (mixed + grain[2] * g[2]));
-	shear = lanes_max(lanes_min(shear, lanes_all(shear_most)), lanes_all(-shear_most));
-	lanes k11 = metric[0] - shear * grain[0], k12 = metric[1] - shear * grain[1];
-	lanes k22 = metric[2] - shear * grain[2];
-	lanes h11 = k11 * g[0] + k12 * g[1], h12 = k11 * g[1] + k12 * g[2];
-	lanes h21 = k12 * g[0] + k22 * g[1], h22 = k12 * g[1] + k22 * g[2];
+	lanes h11 = k[0] * g[0] + k[1] * g[1], h12 = k[0] * g[1] + k[1] * g[2];
+	lanes h21 = k[1] * g[0] + k[2] * g[1], h22 = k[1] * g[1] + k[2] * g[2];
 	lanes d = lanes_sqrt(lanes_max(h11 * h22 - h12 * h21, lanes_all(det_least)));
 	lanes t = lanes_sqrt((h11 + d) + (h22 + d));
 	lanes scale = 1.0f / (t * d);
@@ -58,8 +49,21 @@ LANES_INLINE void shape_moves(const lanes e1[3], const lanes e2[3], const lanes 
 	}
 }
 
-LANES_INLINE void shape_part(struct place *x, const struct shape_batch *batch, int from,
-			     float share, float shear)
+/* Allowed shear turns the rest shape: D T^-1 for D, T = [1 q; q 1], 2 q the allowed part of f1 f2;
+ * to first order K - 2 q D [0 1; 1 0] D^T. */
+LANES_INLINE void allow_shear(lanes k[3], const struct shape_grain *batch, int from,
+			      const lanes g[3], lanes allow)
+{
+	lanes grain[3];
+	UNROLL for (int i = 0; i < 3; i++) grain[i] = lanes_load(batch->grain[i] + from);
+	lanes mixed = grain[1] * g[1];
+	lanes shear = allow * ((grain[0] * g[0] + mixed) + (mixed + grain[2] * g[2]));
+	shear = lanes_max(lanes_min(shear, lanes_all(shear_most)), lanes_all(-shear_most));
+	UNROLL for (int i = 0; i < 3; i++) k[i] = k[i] - shear * grain[i];
+}
+
+LANES_INLINE void shape_part(struct place *x, const struct shape_batch *batch,
+			     const struct shape_grain *grain, int from, float share, float shear)
 {
 	row x0[ROWS], x1[ROWS], x2[ROWS], e1[ROWS], e2[ROWS];
 	rows_load(x0, x, batch->at[0] + from);
@@ -70,18 +74,16 @@ LANES_INLINE void shape_part(struct place *x, const struct shape_batch *batch, i
 		e1[i] = row_sub(x1[i], x0[i]);
 		e2[i] = row_sub(x2[i], x0[i]);
 	}
-	lanes a[3], b[3], g[3], metric[3], grain[3], m[4], move_1[3], move_2[3];
+	lanes a[3], b[3], g[3], metric[3], m[4], move_1[3], move_2[3];
 	rows_to_lanes(e1, a);
 	rows_to_lanes(e2, b);
 	g[0] = dot(a, a);
 	g[1] = dot(a, b);
 	g[2] = dot(b, b);
-	UNROLL for (int k = 0; k < 3; k++)
-	{
-		metric[k] = lanes_load(batch->metric[k] + from);
-		grain[k] = lanes_load(batch->grain[k] + from);
-	}
-	shape_matrix(g, metric, grain, lanes_all(0.5f * (1.0f - shear)), m);
+	UNROLL for (int k = 0; k < 3; k++) metric[k] = lanes_load(batch->metric[k] + from);
+	if (grain)
+		allow_shear(metric, grain, from, g, lanes_all(0.5f * (1.0f - shear)));
+	shape_matrix(g, metric, m);
 	shape_moves(a, b, m, share, move_1, move_2);
 	lanes_to_rows(move_1, e1);
 	lanes_to_rows(move_2, e2);
@@ -96,13 +98,17 @@ LANES_INLINE void shape_part(struct place *x, const struct shape_batch *batch, i
 	rows_store(x2, x, batch->at[2] + from);
 }
 
-LANES_TARGET static void shape(struct place *x, const struct shape_batch *batch, int count,
-			       float share, float shear, bool backwards)
+LANES_TARGET static void shape(struct place *x, const struct shape_batch *batch,
+			       const struct shape_grain *grain, int count, float share, float shear,
+			       bool backwards)
 {
 	for (int i = 0; i < count; i++) {
-		const struct shape_batch *now = &batch[backwards ? count - 1 - i : i];
+		int now = backwards ? count - 1 - i : i;
 		for (int from = 0; from < BATCH; from += LANES)
-			shape_part(x, now, from, share, shear);
+			if (grain)
+				shape_part(x, &batch[now], &grain[now], from, share, shear);
+			else
+				shape_part(x, &batch[now], NULL, from, share, shear);
 	}
 }
 

@@ -336,6 +336,7 @@ LANES_INLINE void rows_store(const row rows[ROWS], struct place *x, const uint32
 #define HIGH_PAIRS(a, b) __builtin_shufflevector(a, b, 2, 6, 3, 7)
 #define LOW_HALVES(a, b) __builtin_shufflevector(a, b, 0, 1, 4, 5)
 #define HIGH_HALVES(a, b) __builtin_shufflevector(a, b, 2, 3, 6, 7)
+#define WITH_Z(xy, z, i, k) __builtin_shufflevector(xy, z, i, i + 1, k + 4, k + 4)
 
 #else /* two fours side by side: lane i beside lane i + 4 */
 
@@ -395,6 +396,8 @@ LANES_INLINE void rows_store(const row rows[ROWS], struct place *x, const uint32
 #define HIGH_PAIRS(a, b) __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15)
 #define LOW_HALVES(a, b) __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13)
 #define HIGH_HALVES(a, b) __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15)
+#define WITH_Z(xy, z, i, k)                                                                        \
+	__builtin_shufflevector(xy, z, i, i + 1, k + 8, k + 8, i + 4, i + 5, k + 12, k + 12)
 
 #endif
 
@@ -424,13 +427,11 @@ LANES_INLINE lanes rows_last(const row rows[ROWS])
 
 LANES_INLINE void lanes_to_rows(const lanes axis[3], row rows[ROWS])
 {
-	lanes zero = lanes_all(0.0f);
 	lanes xy_01 = LOW_PAIRS(axis[0], axis[1]), xy_23 = HIGH_PAIRS(axis[0], axis[1]);
-	lanes z_01 = LOW_PAIRS(axis[2], zero), z_23 = HIGH_PAIRS(axis[2], zero);
-	rows[0] = LOW_HALVES(xy_01, z_01);
-	rows[1] = HIGH_HALVES(xy_01, z_01);
-	rows[2] = LOW_HALVES(xy_23, z_23);
-	rows[3] = HIGH_HALVES(xy_23, z_23);
+	rows[0] = WITH_Z(xy_01, axis[2], 0, 0);
+	rows[1] = WITH_Z(xy_01, axis[2], 2, 1);
+	rows[2] = WITH_Z(xy_23, axis[2], 0, 2);
+	rows[3] = WITH_Z(xy_23, axis[2], 2, 3);
 }
 
 #endif

@@ -226,25 +226,24 @@ static void take_slots(struct cloth *cloth)
 	}
 }
 
-static void put_shape(struct shape_batch *batch, int lane, const struct rest *rest,
+static void put_shape(struct cloth_scratch *s, int at, int lane, const struct rest *rest,
 		      const int corner[3])
 {
 	for (int k = 0; k < 3; k++) {
-		batch->at[k][lane] = place_offset(corner[k]);
-		batch->metric[k][lane] = rest->metric[k];
-		batch->grain[k][lane] = rest->grain[k];
+		s->shape[at].at[k][lane] = place_offset(corner[k]);
+		s->shape[at].metric[k][lane] = rest->metric[k];
+		s->grain[at].grain[k][lane] = rest->grain[k];
 	}
 }
 
-/* A new batch, all of whose lanes are pads of strip `strip`. */
-static struct shape_batch *open_shape(struct shape_batch *batch, int strip)
+/* All of a batch's lanes become pads of strip `strip`. */
+static void open_shape(struct cloth_scratch *s, int at, int strip)
 {
 	static const struct rest unit = {{1.0f, 0.0f, 1.0f}, {0.0f, 1.0f, 0.0f}};
 	int pad = PADS * strip;
 	for (int lane = 0; lane < BATCH; lane++)
-		put_shape(batch, lane, &unit,
+		put_shape(s, at, lane, &unit,
 			  (int[3]){pad + lane, pad + BATCH + lane, pad + 2 * BATCH + lane});
-	return batch;
 }
 
 /* A group's triangles of one colour, or singly those of the last, into batches from s->shape[at]
@@ -252,7 +251,6 @@ static struct shape_batch *open_shape(struct shape_batch *batch, int strip)
 static int take_colour_shapes(struct cloth *cloth, int key, int at)
 {
 	struct cloth_scratch *s = cloth->scratch;
-	struct shape_batch *batch = NULL;
 	int lane = BATCH, strip = key / COLOURS % s->strip_count;
 	bool singly = key % COLOURS == COLOURS - 1;
 	for (int i = s->triangles.first[key]; i < s->triangles.first[key + 1]; i++) {
@@ -261,11 +259,11 @@ static int take_colour_shapes(struct cloth *cloth, int key, int at)
 		if (!triangle_placed(cloth, t))
 			continue;
 		if ((lane == BATCH || singly) && at < SHAPE_BATCHES_MAX) {
-			batch = open_shape(&s->shape[at++], strip);
+			open_shape(s, at++, strip);
 			lane = 0;
 		}
 		if (lane < BATCH)
-			put_shape(batch, lane++, &s->rest[t],
+			put_shape(s, at - 1, lane++, &s->rest[t],
 				  (int[3]){s->slot[v[0]], s->slot[v[1]], s->slot[v[2]]});
 	}
 	return at;

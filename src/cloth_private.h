@@ -134,6 +134,7 @@ struct cloth_scratch {
 	bool all_placed;
 	struct place *place; /* per slot */
 	struct shape_batch *shape;
+	struct shape_grain *grain; /* per entry of shape */
 	int shape_first[GROUPS_MAX + 1];
 	struct bends *bends;
 	struct firm *firm; /* per entry of bends */

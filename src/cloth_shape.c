@@ -16,8 +16,9 @@ static void shape_group(void *context, int part)
 	struct cloth_scratch *s = cloth->scratch;
 	const int *first = &s->shape_first[pass->first_group + part];
 	kernel_of(cloth->lanes)
-		->shape(s->place, s->shape + first[0], first[1] - first[0], set->shape, set->shear,
-			pass->backwards);
+		->shape(s->place, s->shape + first[0],
+			set->shear < 1.0f ? s->grain + first[0] : NULL, first[1] - first[0],
+			set->shape, set->shear, pass->backwards);
 }
 
 static void bend_group(void *context, int part)

@@ -129,8 +129,8 @@ static void kernels(void)
 		double shape = 1.0, flat = 1.0;
 		for (int lap = 0; lap < LAPS; lap++) {
 			double start = thread_s();
-			kernel->shape(s->place, s->shape, s->shape_first[GROUPS_MAX], 0.9f, 1.0f,
-				      false);
+			kernel->shape(s->place, s->shape, NULL, s->shape_first[GROUPS_MAX], 0.9f,
+				      1.0f, false);
 			shape = best_s(shape, start);
 			start = thread_s();
 			kernel->flatten(s->place, s->bends, NULL, s->bends_first[GROUPS_MAX], 0.02f,

@@ -103,7 +103,8 @@ static void kernels(struct cloth *cloth, int lanes, double shape_target, double 
 	double shape_ms = 1e9, flat_ms = 1e9;
 	for (int lap = 0; lap < LAPS; lap++) {
 		double start = peers_ms();
-		kernel->shape(s->place, s->shape, s->shape_first[GROUPS_MAX], 0.9f, 1.0f, false);
+		kernel->shape(s->place, s->shape, NULL, s->shape_first[GROUPS_MAX], 0.9f, 1.0f,
+			      false);
 		shape_ms = least(shape_ms, start);
 		start = peers_ms();
 		kernel->flatten(s->place, s->bends, NULL, s->bends_first[GROUPS_MAX], 0.02f, false);
