@@ -145,23 +145,24 @@ LANES_TARGET static void flatten(struct place *x, const struct bends *bends,
 	}
 }
 
-/* The places a and b of x, if a row has two. */
-LANES_INLINE void spread_part(struct place *x, const struct spread *spread, int a, int b,
+/* A place and, if a row has two, the next one. */
+LANES_INLINE void spread_part(struct place *x, const struct spread *spread, int next,
 			      const struct place *move)
 {
 	row w[4], p[4];
-	rows_splat(w, spread[a].weight, spread[b].weight);
+	rows_splat(w, spread[0].weight, spread[next].weight);
 	UNROLL for (int c = 0; c < 4; c++)
-		p[c] = row_load(move, spread[a].node[c], spread[b].node[c]);
-	uint32_t at = place_offset(a), next = place_offset(b);
-	row_store(x, at, next, row_add(row_load(x, at, next), mix(p, w)));
+		p[c] = row_load(move, spread[0].node[c], spread[next].node[c]);
+	row_store(x, 0, place_offset(next), row_add(row_load(x, 0, place_offset(next)), mix(p, w)));
 }
 
 LANES_TARGET static void spread_moves(struct place *x, const struct spread *spread, int count,
 				      const struct place *move)
 {
-	for (int i = 0; i < count; i += ROW_PLACES)
-		spread_part(x, spread, i, int_min(i + 1, count - 1), move);
+	for (int i = 0; i + ROW_PLACES <= count; i += ROW_PLACES)
+		spread_part(x + i, spread + i, ROW_PLACES - 1, move);
+	if (count % ROW_PLACES > 0)
+		spread_part(x + count - 1, spread + count - 1, 0, move);
 }
 
 /* ---- particles in the public arrays ----

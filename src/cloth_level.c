@@ -144,12 +144,12 @@ bool cloth_build_levels(struct cloth *cloth, long quota, long *units)
 
 /* ---- whenever cloth is placed ---- */
 
-static bool node_placed(const struct cloth *cloth, int l, int node)
+/* The slot of a node's particle: the level's members, all the way down. */
+static int node_slot(const struct cloth_scratch *s, int l, int node)
 {
-	const struct cloth_scratch *s = cloth->scratch;
 	for (; l >= 0; l--)
 		node = s->level[l].node[node];
-	return cloth->placed[s->ranked[node]];
+	return s->slot[s->ranked[node]];
 }
 
 /* Links between placed nodes; what unplaced nodes would have moved stays. */
@@ -160,9 +160,11 @@ void cloth_take_levels(struct cloth *cloth)
 		struct level *level = &s->level[l];
 		level->taut_count = 0;
 		for (int i = 0; i < level->link_count; i++)
-			if (node_placed(cloth, l, level->link[i].a) &&
-			    node_placed(cloth, l, level->link[i].b))
+			if (node_slot(s, l, level->link[i].a) >= 0 &&
+			    node_slot(s, l, level->link[i].b) >= 0)
 				level->taut[level->taut_count++] = level->link[i];
+		for (int n = 0; n < level->node_count; n++)
+			level->start[n] = place_offset(int_max(node_slot(s, l, n), 0));
 		memset(level->at, 0, (size_t)level->node_count * sizeof *level->at);
 		memset(level->move, 0, (size_t)level->node_count * sizeof *level->move);
 	}
@@ -196,13 +198,10 @@ static struct place place_sub(struct place a, struct place b)
 	return (struct place){a.x - b.x, a.y - b.y, a.z - b.z, 0.0f};
 }
 
-/* Where the nodes are before anything moved: the level's members, all the way down. */
-static struct place node_start(const struct cloth_scratch *s, int l, int node)
+/* Where a node is before anything moved. */
+static struct place node_start(const struct cloth_scratch *s, const struct level *level, int node)
 {
-	for (; l >= 0; l--)
-		node = s->level[l].node[node];
-	int slot = s->slot[s->ranked[node]];
-	return s->place[int_max(slot, 0)];
+	return *(const struct place *)((const char *)s->place + level->start[node]);
 }
 
 static void spread_moves(void *context, int part)
@@ -224,7 +223,7 @@ long cloth_levels(struct cloth *cloth)
 		return 0;
 	for (int l = LEVELS - 1; l >= 0; l--)
 		for (int n = 0; n < s->level[l].node_count; n++)
-			s->level[l].at[n] = node_start(s, l, n);
+			s->level[l].at[n] = node_start(s, &s->level[l], n);
 	for (int l = LEVELS - 1; l >= 0; l--) {
 		struct level *level = &s->level[l];
 		if (moved)
@@ -236,7 +235,7 @@ long cloth_levels(struct cloth *cloth)
 			units += level->taut_count;
 		}
 		for (int n = 0; n < level->node_count; n++)
-			level->move[n] = place_sub(level->at[n], node_start(s, l, n));
+			level->move[n] = place_sub(level->at[n], node_start(s, level, n));
 	}
 	if (!moved)
 		return units;

@@ -73,6 +73,7 @@ struct level {
 	struct link *link;
 	int taut_count; /* links between placed nodes */
 	struct link *taut;
+	uint32_t *start;         /* per node: its particle's place; a pad: it is not placed */
 	struct place *at, *move; /* per node, in a sweep */
 };
 
