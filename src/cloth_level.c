@@ -4,6 +4,7 @@
  * between them. Tension so passes through the whole cloth in one sweep, and cloth that is not taut
  * is left alone. */
 #include "cloth_private.h"
+#include "lanes.h"
 
 enum { MARCH_UNITS = 30 }; /* a particle passed on the way from a node */
 
@@ -152,17 +153,29 @@ static int node_slot(const struct cloth_scratch *s, int l, int node)
 	return s->slot[s->ranked[node]];
 }
 
+/* The rest of its four are from a node to itself. */
+static void put_link(struct level *level, const struct link *link)
+{
+	int at = level->limit_count++;
+	struct links *links = &level->limit[at / LINKS];
+	if (at % LINKS == 0)
+		*links = (struct links){{0}, {0}, {0.0f}};
+	links->a[at % LINKS] = place_offset(link->a);
+	links->b[at % LINKS] = place_offset(link->b);
+	links->length_m[at % LINKS] = link->length_m;
+}
+
 /* Links between placed nodes; what unplaced nodes would have moved stays. */
 void cloth_take_levels(struct cloth *cloth)
 {
 	struct cloth_scratch *s = cloth->scratch;
 	for (int l = 0; l < LEVELS; l++) {
 		struct level *level = &s->level[l];
-		level->taut_count = 0;
+		level->limit_count = 0;
 		for (int i = 0; i < level->link_count; i++)
 			if (node_slot(s, l, level->link[i].a) >= 0 &&
 			    node_slot(s, l, level->link[i].b) >= 0)
-				level->taut[level->taut_count++] = level->link[i];
+				put_link(level, &level->link[i]);
 		for (int n = 0; n < level->node_count; n++)
 			level->start[n] = place_offset(int_max(node_slot(s, l, n), 0));
 		memset(level->at, 0, (size_t)level->node_count * sizeof *level->at);
@@ -174,21 +187,54 @@ void cloth_take_levels(struct cloth *cloth)
 
 /* ---- in every sweep ---- */
 
+static struct place *node_at(const struct level *level, uint32_t offset)
+{
+	return (struct place *)((char *)level->at + offset);
+}
+
+static bool limit_link(struct level *level, const struct links *links, int k, float half)
+{
+	struct place *a = node_at(level, links->a[k]), *b = node_at(level, links->b[k]);
+	float x = b->x - a->x, y = b->y - a->y, z = b->z - a->z, most = links->length_m[k];
+	float squared = x * x + y * y + z * z;
+	if (squared <= most * most)
+		return false;
+	float length = sqrtf(squared), part = half * (length - most) / length;
+	*a = (struct place){a->x + x * part, a->y + y * part, a->z + z * part, 0.0f};
+	*b = (struct place){b->x - x * part, b->y - y * part, b->z - z * part, 0.0f};
+	return true;
+}
+
+static lanes squares(const struct level *level, const struct links *links, int k)
+{
+	lanes way = *(const lanes *)node_at(level, links->b[k]) -
+		    *(const lanes *)node_at(level, links->a[k]);
+	return way * way;
+}
+
+/* Most links are slack, and a slack one moves nothing: four of them are passed at a time. */
+static bool all_slack(const struct level *level, const struct links *links)
+{
+	lanes d0 = squares(level, links, 0), d1 = squares(level, links, 1);
+	lanes d2 = squares(level, links, 2), d3 = squares(level, links, 3);
+	lanes xy_01 = LANES_LOW(d0, d1), xy_23 = LANES_LOW(d2, d3);
+	lanes z_01 = LANES_HIGH(d0, d1), z_23 = LANES_HIGH(d2, d3);
+	lanes x = __builtin_shufflevector(xy_01, xy_23, 0, 1, 4, 5);
+	lanes y = __builtin_shufflevector(xy_01, xy_23, 2, 3, 6, 7);
+	lanes z = __builtin_shufflevector(z_01, z_23, 0, 1, 4, 5);
+	lanes most = *(const lanes *)links->length_m;
+	return !lanes_any(~(x + y + z <= most * most));
+}
+
 static bool limit_links(struct level *level, float share)
 {
 	bool moved = false;
-	float half = 0.5f * share;
-	for (int i = 0; i < level->taut_count; i++) {
-		const struct link *link = &level->taut[i];
-		struct place *a = &level->at[link->a], *b = &level->at[link->b];
-		float x = b->x - a->x, y = b->y - a->y, z = b->z - a->z;
-		float squared = x * x + y * y + z * z;
-		if (squared <= link->length_m * link->length_m)
+	for (int i = 0; i < level->limit_count; i += LINKS) {
+		const struct links *links = &level->limit[i / LINKS];
+		if (all_slack(level, links))
 			continue;
-		float length = sqrtf(squared), part = half * (length - link->length_m) / length;
-		*a = (struct place){a->x + x * part, a->y + y * part, a->z + z * part, 0.0f};
-		*b = (struct place){b->x - x * part, b->y - y * part, b->z - z * part, 0.0f};
-		moved = true;
+		for (int k = 0; k < LINKS; k++)
+			moved |= limit_link(level, links, k, 0.5f * share);
 	}
 	return moved;
 }
@@ -232,7 +278,7 @@ long cloth_levels(struct cloth *cloth)
 					 s->level[l + 1].move);
 		for (int pass = 0; pass < LEVEL_PASSES; pass++) {
 			moved |= limit_links(level, cloth->settings.reach);
-			units += level->taut_count;
+			units += level->limit_count;
 		}
 		for (int n = 0; n < level->node_count; n++)
 			level->move[n] = place_sub(level->at[n], node_start(s, level, n));

@@ -29,6 +29,13 @@ static inline lanes lanes_select(lane_mask mask, lanes yes, lanes no)
 	return (lanes)((mask & (lane_mask)yes) | (~mask & (lane_mask)no));
 }
 
+static inline bool lanes_any(lane_mask mask)
+{
+	uint64_t half[2];
+	memcpy(half, &mask, sizeof half);
+	return (half[0] | half[1]) != 0;
+}
+
 static inline lanes lanes_min(lanes a, lanes b)
 {
 	return lanes_select(a < b, a, b);
