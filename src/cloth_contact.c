@@ -1,5 +1,6 @@
 /* Contact with the body: every particle tracks its own nearest surface point (S17). */
 #include "cloth_private.h"
+#include "lanes.h"
 
 enum {
 	WALK_STEPS_MAX = 12,
@@ -309,14 +310,14 @@ static float face_height(const struct cloth *cloth, const int v[3])
 static bool face_rests(const struct cloth *cloth, int t, const struct face_quiet *quiet)
 {
 	const int *v = cloth->triangle[t].v;
-	float moved2 = 0.0f;
-	for (int k = 0; k < 3; k++) {
-		struct v3 moved = v3_sub(cloth->position_m[v[k]], quiet->at_m[k]);
-		moved2 = float_max(moved2, v3_dot(moved, moved));
-	}
-	if (moved2 < quiet->far_m * quiet->far_m)
+	const struct v3 *x = cloth->position_m, *at = quiet->at_m;
+	float far2 = quiet->far_m * quiet->far_m, near2 = quiet->near_m * quiet->near_m;
+	lanes last = lanes_row(&x[v[2]]) - lanes_row(&at[2]);
+	lanes moved2 = lanes_squared_lengths(lanes_row(&x[v[0]]) - lanes_row(&at[0]),
+					     lanes_row(&x[v[1]]) - lanes_row(&at[1]), last, last);
+	if (!lanes_any(~(moved2 < lanes_of(far2))))
 		return true;
-	if (moved2 >= quiet->near_m * quiet->near_m)
+	if (lanes_any(~(moved2 < lanes_of(near2))))
 		return false;
 	for (int k = 0; k < 3; k++)
 		cloth->scratch->slack_m[v[k]] = float_min(cloth->scratch->slack_m[v[k]], 0.0f);
@@ -370,7 +371,7 @@ static long look_at_face(struct cloth *cloth, int t, struct face_quiet *quiet)
 	static const float third[3] = {1.0f / 3.0f, 1.0f / 3.0f, 1.0f / 3.0f};
 	const int *v = cloth->triangle[t].v;
 	uint8_t owner = cloth->scratch->edge_owner[t];
-	if (!triangle_placed(cloth, t) || face_rests(cloth, t, quiet))
+	if (!corners_placed(cloth, t) || face_rests(cloth, t, quiet))
 		return 0;
 	for (int k = 0; k < 3; k++)
 		if (cloth->contact[v[k]].triangle < 0)

@@ -55,7 +55,7 @@ static enum facing facing_of(const struct cloth *cloth, int t, const int *v, lon
 {
 	struct v3 outward = {0.0f, 0.0f, 0.0f};
 	float near_m = 1.0f;
-	if (!cloth->scratch->all_placed && !triangle_placed(cloth, t))
+	if (!corners_placed(cloth, t))
 		return FACING_SIDE;
 	*units += LOOK_UNITS;
 	for (int k = 0; k < 3; k++) {

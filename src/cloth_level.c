@@ -205,25 +205,19 @@ static bool limit_link(struct level *level, const struct links *links, int k, fl
 	return true;
 }
 
-static lanes squares(const struct level *level, const struct links *links, int k)
+static lanes link_way(const struct level *level, const struct links *links, int k)
 {
-	lanes way = *(const lanes *)node_at(level, links->b[k]) -
-		    *(const lanes *)node_at(level, links->a[k]);
-	return way * way;
+	return *(const lanes *)node_at(level, links->b[k]) -
+	       *(const lanes *)node_at(level, links->a[k]);
 }
 
 /* Most links are slack, and a slack one moves nothing: four of them are passed at a time. */
 static bool all_slack(const struct level *level, const struct links *links)
 {
-	lanes d0 = squares(level, links, 0), d1 = squares(level, links, 1);
-	lanes d2 = squares(level, links, 2), d3 = squares(level, links, 3);
-	lanes xy_01 = LANES_LOW(d0, d1), xy_23 = LANES_LOW(d2, d3);
-	lanes z_01 = LANES_HIGH(d0, d1), z_23 = LANES_HIGH(d2, d3);
-	lanes x = __builtin_shufflevector(xy_01, xy_23, 0, 1, 4, 5);
-	lanes y = __builtin_shufflevector(xy_01, xy_23, 2, 3, 6, 7);
-	lanes z = __builtin_shufflevector(z_01, z_23, 0, 1, 4, 5);
+	lanes squared = lanes_squared_lengths(link_way(level, links, 0), link_way(level, links, 1),
+					      link_way(level, links, 2), link_way(level, links, 3));
 	lanes most = *(const lanes *)links->length_m;
-	return !lanes_any(~(x + y + z <= most * most));
+	return !lanes_any(~(squared <= most * most));
 }
 
 static bool limit_links(struct level *level, float share)

@@ -137,9 +137,9 @@ struct cloth_scratch {
 	int slot_count;        /* placed particles as the kernels see them; pads first */
 	int *slot;             /* per vertex, -1: not placed */
 	int *slot_vertex;
-	uint32_t *at;   /* per vertex, and ... */
-	uint8_t *whole; /* ... per BATCH of them, for struct particles */
-	bool all_placed;
+	uint32_t *at;        /* per vertex, and ... */
+	uint8_t *whole;      /* ... per BATCH of them, for struct particles */
+	bool all_placed;     /* when they were filled */
 	struct place *place; /* per slot */
 	struct shape_batch *shape;
 	struct shape_grain *grain; /* per entry of shape */
@@ -199,6 +199,13 @@ static inline bool triangle_placed(const struct cloth *cloth, int t)
 {
 	const int *v = cloth->triangle[t].v;
 	return cloth->placed[v[0]] && cloth->placed[v[1]] && cloth->placed[v[2]];
+}
+
+/* Quicker, where all of the cloth is. */
+static inline bool corners_placed(const struct cloth *cloth, int t)
+{
+	const struct cloth_scratch *s = cloth->scratch;
+	return (s->all_placed && !s->stale) || triangle_placed(cloth, t);
 }
 
 static inline bool is_particle(const struct cloth *cloth, int v)

@@ -77,4 +77,26 @@ static inline lanes lanes3_dot(struct lanes3 a, struct lanes3 b)
 	return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+/* A vector as it lies in memory; the last lane takes what lies behind it. */
+static inline lanes lanes_row(const struct v3 *a)
+{
+	typedef float loose __attribute__((vector_size(16), aligned(4), may_alias));
+	return (lanes) * (const loose *)a;
+}
+
+/* x x + y y + z z of four rows. */
+static inline lanes lanes_squared_lengths(lanes a, lanes b, lanes c, lanes d)
+{
+	a *= a;
+	b *= b;
+	c *= c;
+	d *= d;
+	lanes xy_01 = LANES_LOW(a, b), xy_23 = LANES_LOW(c, d);
+	lanes z_01 = LANES_HIGH(a, b), z_23 = LANES_HIGH(c, d);
+	lanes x = __builtin_shufflevector(xy_01, xy_23, 0, 1, 4, 5);
+	lanes y = __builtin_shufflevector(xy_01, xy_23, 2, 3, 6, 7);
+	lanes z = __builtin_shufflevector(z_01, z_23, 0, 1, 4, 5);
+	return x + y + z;
+}
+
 #endif
