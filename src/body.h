@@ -117,6 +117,9 @@ bool body_track(const struct body *body, struct v3 point_m, unsigned parts,
  * 0 or less within BODY_NEAR_M, where that is the caller's to say. */
 float body_track_idle_m(const struct body_track *track);
 
+/* Do the balls without surface that rest on triangle t hold the whole way between two points? */
+bool body_clear_between(const struct body *body, int t, struct v3 a_m, struct v3 b_m);
+
 /* First hit of a ray with a front face (or, with `back`, the last hit with a back face: laser
  * mode's other side). Direction of any length; distance in units of it. False: no hit. */
 bool body_ray(const struct body *body, struct v3 origin_m, struct v3 direction,

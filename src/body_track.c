@@ -69,6 +69,19 @@ static float least_over(const struct body *body, int t, struct v3 p, float enoug
 	return least;
 }
 
+/* A ball holds the whole way between two points in it. */
+bool body_clear_between(const struct body *body, int t, struct v3 a_m, struct v3 b_m)
+{
+	const struct ball *ball = &body->clear[t];
+	for (int k = 0; k < 4; k++) {
+		if (float_min(least_by(ball, a_m), least_by(ball, b_m)) > clear_slack_m)
+			return true;
+		if (k < 3)
+			ball = &body->corner_clear[body->triangle[t].v[k]];
+	}
+	return false;
+}
+
 /* ---- tracking ---- */
 
 static void take(const struct body *body, struct v3 p, const struct nearest *best, unsigned parts,

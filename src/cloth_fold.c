@@ -174,6 +174,13 @@ static struct body_hit deepest_between(const struct cloth *cloth, struct v3 a, s
 	return deepest;
 }
 
+/* Nothing of the body is between two points near particle v: no query is needed. */
+static bool clear_between(const struct cloth *cloth, int v, struct v3 a_m, struct v3 b_m)
+{
+	int under = cloth->contact[v].triangle;
+	return under >= 0 && body_clear_between(cloth->body, under, a_m, b_m);
+}
+
 /* Both ends of an edge that passes through the body go out by what its deepest sample lacks. */
 static bool push_edge(struct cloth *cloth, int a, int b, struct v3 outside)
 {
@@ -181,6 +188,8 @@ static bool push_edge(struct cloth *cloth, int a, int b, struct v3 outside)
 	const int ends[2] = {a, b};
 	struct body_hit hit;
 	struct v3 at = x[a];
+	if (clear_between(cloth, a, x[a], x[b]) || clear_between(cloth, b, x[a], x[b]))
+		return false;
 	if (!body_segment_hits(cloth->body, x[a], x[b], &hit))
 		return false;
 	struct body_hit deepest = deepest_between(cloth, x[a], x[b], &at);
@@ -197,6 +206,9 @@ static bool push_face(struct cloth *cloth, const int *v, struct v3 outside)
 	const struct v3 *x = cloth->position_m;
 	struct v3 centre = v3_scale(v3_add(v3_add(x[v[0]], x[v[1]]), x[v[2]]), 1.0f / 3.0f);
 	struct body_hit hit;
+	for (int k = 0; k < 3; k++)
+		if (clear_between(cloth, v[k], centre, centre))
+			return false;
 	body_nearest_from(cloth->body, centre, 0, cloth->contact[v[0]].triangle, &hit);
 	if (hit.distance_m > -inside_m)
 		return false;
