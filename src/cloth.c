@@ -36,7 +36,7 @@ static void init_levels(struct cloth_scratch *s, struct arena *arena)
 		level->spread = ARENA_ARRAY(arena, struct spread, members);
 		level->node = ARENA_ARRAY(arena, int, LEVEL_NODES_MAX);
 		level->link = ARENA_ARRAY(arena, struct link, LEVEL_LINKS_MAX);
-		level->limit = ARENA_ARRAY(arena, struct links, LEVEL_LINKS_MAX / LINKS);
+		level->taut = ARENA_ARRAY(arena, struct link, LEVEL_LINKS_MAX);
 		level->start = ARENA_ARRAY(arena, uint32_t, LEVEL_NODES_MAX);
 		level->at = ARENA_ARRAY(arena, struct place, LEVEL_NODES_MAX);
 		level->move = ARENA_ARRAY(arena, struct place, LEVEL_NODES_MAX);

@@ -153,29 +153,17 @@ static int node_slot(const struct cloth_scratch *s, int l, int node)
 	return s->slot[s->ranked[node]];
 }
 
-/* The rest of its four are from a node to itself. */
-static void put_link(struct level *level, const struct link *link)
-{
-	int at = level->limit_count++;
-	struct links *links = &level->limit[at / LINKS];
-	if (at % LINKS == 0)
-		*links = (struct links){{0}, {0}, {0.0f}};
-	links->a[at % LINKS] = place_offset(link->a);
-	links->b[at % LINKS] = place_offset(link->b);
-	links->length_m[at % LINKS] = link->length_m;
-}
-
 /* Links between placed nodes; what unplaced nodes would have moved stays. */
 void cloth_take_levels(struct cloth *cloth)
 {
 	struct cloth_scratch *s = cloth->scratch;
 	for (int l = 0; l < LEVELS; l++) {
 		struct level *level = &s->level[l];
-		level->limit_count = 0;
+		level->taut_count = 0;
 		for (int i = 0; i < level->link_count; i++)
 			if (node_slot(s, l, level->link[i].a) >= 0 &&
 			    node_slot(s, l, level->link[i].b) >= 0)
-				put_link(level, &level->link[i]);
+				level->taut[level->taut_count++] = level->link[i];
 		for (int n = 0; n < level->node_count; n++)
 			level->start[n] = place_offset(int_max(node_slot(s, l, n), 0));
 		memset(level->at, 0, (size_t)level->node_count * sizeof *level->at);
@@ -187,49 +175,26 @@ void cloth_take_levels(struct cloth *cloth)
 
 /* ---- in every sweep ---- */
 
-static struct place *node_at(const struct level *level, uint32_t offset)
+/* Nodes are read and written whole: what was written in parts would have to be waited for. */
+static bool limit_link(struct place *at, const struct link *link, float half)
 {
-	return (struct place *)((char *)level->at + offset);
-}
-
-static bool limit_link(struct level *level, const struct links *links, int k, float half)
-{
-	struct place *a = node_at(level, links->a[k]), *b = node_at(level, links->b[k]);
-	float x = b->x - a->x, y = b->y - a->y, z = b->z - a->z, most = links->length_m[k];
-	float squared = x * x + y * y + z * z;
-	if (squared <= most * most)
+	lanes *a = (lanes *)&at[link->a], *b = (lanes *)&at[link->b];
+	lanes way = *b - *a;
+	float squared = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
+	if (squared <= link->length_m * link->length_m)
 		return false;
-	float length = sqrtf(squared), part = half * (length - most) / length;
-	*a = (struct place){a->x + x * part, a->y + y * part, a->z + z * part, 0.0f};
-	*b = (struct place){b->x - x * part, b->y - y * part, b->z - z * part, 0.0f};
+	float length = sqrtf(squared);
+	way *= lanes_of(half * (length - link->length_m) / length);
+	*a += way;
+	*b -= way;
 	return true;
-}
-
-static lanes link_way(const struct level *level, const struct links *links, int k)
-{
-	return *(const lanes *)node_at(level, links->b[k]) -
-	       *(const lanes *)node_at(level, links->a[k]);
-}
-
-/* Most links are slack, and a slack one moves nothing: four of them are passed at a time. */
-static bool all_slack(const struct level *level, const struct links *links)
-{
-	lanes squared = lanes_squared_lengths(link_way(level, links, 0), link_way(level, links, 1),
-					      link_way(level, links, 2), link_way(level, links, 3));
-	lanes most = *(const lanes *)links->length_m;
-	return !lanes_any(~(squared <= most * most));
 }
 
 static bool limit_links(struct level *level, float share)
 {
 	bool moved = false;
-	for (int i = 0; i < level->limit_count; i += LINKS) {
-		const struct links *links = &level->limit[i / LINKS];
-		if (all_slack(level, links))
-			continue;
-		for (int k = 0; k < LINKS; k++)
-			moved |= limit_link(level, links, k, 0.5f * share);
-	}
+	for (int i = 0; i < level->taut_count; i++)
+		moved |= limit_link(level->at, &level->taut[i], 0.5f * share);
 	return moved;
 }
 
@@ -272,7 +237,7 @@ long cloth_levels(struct cloth *cloth)
 					 s->level[l + 1].move);
 		for (int pass = 0; pass < LEVEL_PASSES; pass++) {
 			moved |= limit_links(level, cloth->settings.reach);
-			units += level->limit_count;
+			units += level->taut_count;
 		}
 		for (int n = 0; n < level->node_count; n++)
 			level->move[n] = place_sub(level->at[n], node_start(s, level, n));

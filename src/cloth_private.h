@@ -61,13 +61,6 @@ struct link {
 	float length_m;
 };
 
-/* Links as they are looked at in a sweep. */
-enum { LINKS = 4 };
-struct links {
-	_Alignas(16) uint32_t a[LINKS], b[LINKS]; /* offsets in level.at */
-	float length_m[LINKS];
-};
-
 /* A coarse level. Its nodes are some of its members, which are the nodes of the level below or, of
  * the lowest, the particles by rank. */
 struct level {
@@ -78,8 +71,8 @@ struct level {
 	int *node; /* its member */
 	int link_count;
 	struct link *link;
-	int limit_count; /* links between placed nodes */
-	struct links *limit;
+	int taut_count; /* links between placed nodes */
+	struct link *taut;
 	uint32_t *start;         /* per node: its particle's place; a pad: it is not placed */
 	struct place *at, *move; /* per node, in a sweep */
 };
