@@ -50,6 +50,13 @@ below strain_p95 0.05 brian
 below strain_max 0.25 brian
 grep -q '"gathered"' "$folder/report.json" || fail "brian: gathered sleeves are not reported"
 
+# What is much too wide for a child hangs in folds; it does not lie in pleats.
+dress sven_withBreasts34 tests/marks/sven.marks mh_child_female
+equal inverted_triangles 0 sven
+equal arms_in_sleeves 2 sven
+below self_intersections 10 sven
+below strain_p95 0.05 sven
+
 # A skirt hangs from its waistband round both legs, marked by hand or by a guess.
 for marks in tests/marks/penelope.marks guess; do
   dress penelope_cisFemaleAdult34 "$marks" mh_female_young_average
@@ -60,4 +67,9 @@ for marks in tests/marks/penelope.marks guess; do
   below strain_max 0.25 penelope
   below mark_error_mm_rms 5 penelope
 done
+
+# A narrow one does not hang into the gap between a toy's legs.
+dress penelope_cisMaleAdult42 tests/marks/penelope.marks kenney_charactermedium
+below inverted_triangles 20 penelope
+below strain_max 0.25 penelope
 finish
