@@ -267,6 +267,19 @@ LANES_INLINE void vertices_store(struct v3 *to, const struct place *x, const uin
 	to[BATCH - 1] = place_at(x, at[BATCH - 1]);
 }
 
+/* A vertex with the next one's x after it. */
+LANES_INLINE four vertex_load(const struct v3 *from)
+{
+	return *(const loose *)from;
+}
+
+/* The last of a run ends with its own z: what comes next may be another thread's. */
+LANES_INLINE four vertex_load_last(const struct v3 *from)
+{
+	four r = *(const loose *)((const float *)from - 1);
+	return __builtin_shufflevector(r, r, 1, 2, 3, 3);
+}
+
 LANES_INLINE unsigned lanes_below(lanes a, lanes b)
 {
 #if LANES == 8
@@ -314,7 +327,8 @@ LANES_INLINE row row_cut(row r)
 
 LANES_INLINE void vertices_load(row rows[ROWS], const struct v3 *from)
 {
-	UNROLL for (int i = 0; i < ROWS; i++) rows[i] = *(const loose *)(from + i);
+	UNROLL for (int i = 0; i < ROWS - 1; i++) rows[i] = vertex_load(from + i);
+	rows[ROWS - 1] = vertex_load_last(from + ROWS - 1);
 }
 
 LANES_INLINE void quiet_load(row rows[ROWS], const struct quiet *from)
@@ -372,8 +386,9 @@ LANES_INLINE row row_cut(row r)
 
 LANES_INLINE void vertices_load(row rows[ROWS], const struct v3 *from)
 {
-	UNROLL for (int i = 0; i < ROWS; i++)
-		rows[i] = JOIN(*(const loose *)(from + i), *(const loose *)(from + i + 4));
+	UNROLL for (int i = 0; i < ROWS - 1; i++)
+		rows[i] = JOIN(vertex_load(from + i), vertex_load(from + i + 4));
+	rows[ROWS - 1] = JOIN(vertex_load(from + 3), vertex_load_last(from + 7));
 }
 
 LANES_INLINE void quiet_load(row rows[ROWS], const struct quiet *from)
