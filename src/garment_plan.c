@@ -10,6 +10,7 @@ enum {
 	PLAN_PASSES_MAX = 12,
 	PLAN_EDGE_MM_MIN = 6,
 	PLAN_EDGE_MM_MAX = 40,
+	BLOCK = 16, /* segments */
 };
 
 #define SHORTEST_MM 3.0f /* for beauty; below, only to keep the samples from crossing */
@@ -32,6 +33,7 @@ void plan_init(struct plan *plan, struct arena *arena)
 	plan->point = ARENA_ARRAY(arena, struct grid_point, GARMENT_VERTICES_MAX);
 	plan->point_fraction = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
 	plan->sharp = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX + 1);
+	plan->box = ARENA_ARRAY(arena, struct grid_box, GARMENT_VERTICES_MAX / BLOCK + 1);
 }
 
 /* "piece NAME: reason" */
@@ -207,7 +209,8 @@ static const char *place_points(struct plan *plan, const struct pattern *pattern
 struct loop {
 	const struct grid_point *point;
 	int count;
-	const int *sharp; /* sharp corners among points 0 .. i, at i + 1 */
+	const struct grid_box *box; /* of every BLOCK segments */
+	const int *sharp;           /* sharp corners among points 0 .. i, at i + 1 */
 };
 
 static struct grid_point loop_point(const struct loop *loop, int i)
@@ -261,6 +264,29 @@ static bool narrow(const struct loop *loop, int i, int k, float length)
 
 enum verdict { FITS, TOO_LONG, CROSSES };
 
+static bool out_of_reach(const struct grid_box *box, int32_t x, int32_t y, int32_t reach)
+{
+	return box->high.x < x - reach || box->low.x > x + reach || box->high.y < y - reach ||
+	       box->low.y > y + reach;
+}
+
+/* A box round each block of segments: most of an outline is far from most of it. */
+static void find_boxes(const struct loop *loop, struct grid_box *box)
+{
+	for (int i = 0; i < loop->count; i++) {
+		struct grid_box *of = &box[i / BLOCK];
+		if (i % BLOCK == 0)
+			*of = (struct grid_box){loop->point[i], loop->point[i]};
+		for (int k = 0; k < 2; k++) {
+			struct grid_point p = loop_point(loop, i + k);
+			of->low.x = int_min(of->low.x, p.x);
+			of->low.y = int_min(of->low.y, p.y);
+			of->high.x = int_max(of->high.x, p.x);
+			of->high.y = int_max(of->high.y, p.y);
+		}
+	}
+}
+
 static enum verdict judge_against_all(const struct loop *loop, int i, float length)
 {
 	struct grid_point a = loop->point[i], b = loop_point(loop, i + 1);
@@ -268,6 +294,10 @@ static enum verdict judge_against_all(const struct loop *loop, int i, float leng
 	int32_t reach = (int32_t)(length / GRADING) + 2;
 	enum verdict verdict = FITS;
 	for (int k = 0; k < loop->count; k++) {
+		if (k % BLOCK == 0 && out_of_reach(&loop->box[k / BLOCK], x, y, reach)) {
+			k += BLOCK - 1;
+			continue;
+		}
 		struct grid_point c = loop->point[k], d = loop_point(loop, k + 1);
 		if ((c.x < x - reach && d.x < x - reach) || (c.x > x + reach && d.x > x + reach) ||
 		    (c.y < y - reach && d.y < y - reach) || (c.y > y + reach && d.y > y + reach))
@@ -304,7 +334,8 @@ static enum verdict judge_segment(const struct loop *loop, int i, float arc)
 static int judge_piece(struct plan *plan, int p)
 {
 	int first = plan->point_first[p], count = plan->point_first[p + 1] - first;
-	struct loop loop = {plan->point + first, count, plan->sharp};
+	struct loop loop = {plan->point + first, count, plan->box, plan->sharp};
+	find_boxes(&loop, plan->box);
 	plan->sharp[0] = 0;
 	for (int i = 0; i < count; i++)
 		plan->sharp[i + 1] = plan->sharp[i] + is_sharp(loop_point(&loop, i + count - 1),

@@ -82,6 +82,10 @@ struct plan_group {
 	int first, segments; /* its segments + 1 fractions in plan.fraction */
 };
 
+struct grid_box {
+	struct grid_point low, high;
+};
+
 struct plan {
 	float edge_mm;
 	int edge_count;
@@ -96,6 +100,7 @@ struct plan {
 	int point_first[PIECES_MAX + 1];
 	struct grid_point *point; /* piece by piece, in outline order */
 	int *point_fraction;      /* the fraction that starts the segment from this point */
+	struct grid_box *box;     /* of every 16 segments of one piece */
 	int *sharp;               /* running count of sharp corners, per point of one piece */
 };
 
