@@ -151,6 +151,7 @@ static void clear(struct cloth *cloth, const struct garment *garment, const stru
 	memset(cloth->creased, 0, GARMENT_VERTICES_MAX);
 	memset(cloth->piece_parts, 0, sizeof cloth->piece_parts);
 	memset(cloth->piece_drawn, 0, sizeof cloth->piece_drawn);
+	memset(cloth->piece_blown, 0, sizeof cloth->piece_blown);
 	for (int p = 0; p < PIECES_MAX; p++)
 		cloth->piece_gather[p] = (struct gather){{0.0f, 1.0f}, 0.0f, 1.0f};
 	memset(cloth->scratch->stiff, 0, GARMENT_VERTICES_MAX);
@@ -268,15 +269,17 @@ static void for_all_vertices(struct cloth *cloth, crew_task *task)
 	crew_run(cloth->crew, task, cloth, loop_parts(cloth->garment->vertex_count));
 }
 
-/* A far body pulls drawn pieces; a near one pushes cloth away that is inflated. */
+/* A far body pulls drawn pieces; a near one pushes blown ones away. */
 static void drive(struct cloth *cloth, struct loop_part loop)
 {
 	struct cloth_scratch *s = cloth->scratch;
 	const struct cloth_settings *set = &cloth->settings;
 	for (int v = loop.first; v < loop.first + loop.count; v++) {
 		const struct contact *contact = &cloth->contact[v];
-		float out_m = contact->distance_m <= blown_m ? set->inflate_m : 0.0f;
-		if (contact->distance_m > far_m && cloth->piece_drawn[cloth->garment->piece[v]])
+		int piece = cloth->garment->piece[v];
+		bool near = contact->distance_m <= blown_m;
+		float out_m = near && cloth->piece_blown[piece] ? set->inflate_m : 0.0f;
+		if (contact->distance_m > far_m && cloth->piece_drawn[piece])
 			out_m -= set->attract_m;
 		if (out_m == 0.0f || s->at[v] == PLACE_NONE || contact->triangle < 0)
 			continue;

@@ -41,7 +41,7 @@ struct cloth_settings {
 	float step_max_m;   /* bound on a particle's motion in one sweep */
 	float seam_step_m;  /* bound on the closing of a seam in one sweep; 0: seams don't pull */
 	float attract_m;    /* pull of drawn pieces to a body farther than 35 mm; 0: none */
-	float inflate_m;    /* push of all cloth away from a body nearer than 100 mm; 0: none */
+	float inflate_m;    /* push of blown pieces away from a body nearer than 100 mm; 0: none */
 	bool filter_parts;  /* each piece only meets the body parts that piece_parts allows */
 	bool faces;         /* also keep edge midpoints and triangle centres outside */
 	bool open;          /* folds that are not wanted turn back */
@@ -64,7 +64,8 @@ struct cloth {
 		       may be called */
 	bool worn;  /* a wrap has finished: there is a garment to drag */
 	unsigned piece_parts[PIECES_MAX]; /* bit set of enum body_part; 0: all */
-	bool piece_drawn[PIECES_MAX];     /* attract_m works on this piece */
+	bool piece_drawn[PIECES_MAX];     /* attract_m works on this piece, ... */
+	bool piece_blown[PIECES_MAX];     /* ... inflate_m on this one */
 	struct gather piece_gather[PIECES_MAX];
 	int *particle;             /* per vertex: itself, or weld[] once welded */
 	struct triangle *triangle; /* through particle[] */

@@ -158,6 +158,31 @@ unsigned wrap_whole_parts(const struct wrap *wrap)
 	return (is_mask(wrap) ? head : 0) | (is_skirt(wrap) ? legs : 0);
 }
 
+/* Vertices - edges + triangles of each garment, by layer. */
+static void count_euler(const struct cloth *cloth, int euler[PIECES_MAX])
+{
+	const struct garment *garment = cloth->garment;
+	memset(euler, 0, PIECES_MAX * sizeof *euler);
+	for (int v = 0; v < garment->vertex_count; v++)
+		euler[garment->layer[garment->piece[v]]] += is_particle(cloth, v);
+	/* three edges a triangle; those of two triangles are one */
+	for (int t = 0; t < garment->triangle_count; t++)
+		euler[garment->layer[garment->triangle_piece[t]]] -= 2;
+	for (int f = 0; f < cloth->flat_count; f++)
+		euler[garment->layer[garment->piece[cloth->flat[f].v[0]]]]++;
+}
+
+void wrap_find_blown(struct wrap *wrap)
+{
+	struct cloth *cloth = wrap->cloth;
+	int euler[PIECES_MAX];
+	bool mask = is_mask(wrap);
+	count_euler(cloth, euler);
+	for (int p = 0; p < PIECES_MAX; p++)
+		cloth->piece_blown[p] = euler[cloth->garment->layer[p]] < 1 &&
+					!(mask && wrap->scratch->home[p] == PART_HEAD);
+}
+
 /* ---- bones as axes ---- */
 
 bool wrap_outward(const struct body *body, const struct body_hit *hit, struct v3 *out)

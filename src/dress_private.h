@@ -71,6 +71,10 @@ void wrap_find_homes(struct wrap *wrap);
  * skirt legs with no gap to hang into. */
 unsigned wrap_whole_parts(const struct wrap *wrap);
 
+/* Fills the cloth's piece_blown once it is sewn: what goes round something, being no disc. Open
+ * cloth and a mask would be blown off. */
+void wrap_find_blown(struct wrap *wrap);
+
 /* Says which limb is not in its tube, and whether the head is covered (dress_check.c). */
 void wrap_check(struct wrap *wrap);
 

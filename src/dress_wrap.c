@@ -332,6 +332,7 @@ static long fill(struct wrap *wrap)
 	long units = 0;
 	if (wrap->cloth->body == s->full) {
 		wrap_let_out(wrap);
+		wrap_find_blown(wrap);
 		enter(wrap, WRAP_UNFOLD, unfolding());
 		return 1;
 	}

@@ -57,6 +57,14 @@ equal arms_in_sleeves 2 sven
 below self_intersections 10 sven
 below strain_p95 0.05 sven
 
+# A mask goes round nothing, and stays on the face.
+dress florence_cisMaleAdult42 tests/marks/florence.marks mh_child_female
+for key in inverted_triangles self_intersections; do
+  equal "$key" 0 florence
+done
+below strain_p95 0.05 florence
+below strain_max 0.25 florence
+
 # A skirt hangs from its waistband round both legs, marked by hand or by a guess.
 for marks in tests/marks/penelope.marks guess; do
   dress penelope_cisFemaleAdult34 "$marks" mh_female_young_average
