@@ -82,6 +82,37 @@ static struct v3 joined_to(struct v3 p_m, struct v3 axis_m, float middle_m)
 	return (struct v3){p_m.x + inner * way_m / (1.0f - LIMB_THIN_SHARE), p_m.y, p_m.z};
 }
 
+/* The bones of a limb turn from where they point to one direction. */
+static void find_turns(struct slim_body *slim, const struct body *full,
+		       const struct v3 toward[PART_COUNT])
+{
+	memset(slim->turn, 0, sizeof slim->turn);
+	for (int b = 0; toward && b < full->bone_count; b++) {
+		const struct bone *bone = &full->bone[b];
+		struct v3 from = v3_normalize(v3_sub(bone->b_m, bone->a_m));
+		struct v3 to = toward[bone->part], axis = v3_cross(from, to);
+		if (v3_length(axis) < 1e-4f)
+			continue;
+		slim->turn[b].axis = v3_normalize(axis);
+		slim->turn[b].angle_rad = angle_acos(v3_dot(from, to));
+	}
+}
+
+/* The bone of a limb that reaches so far, if it turns; -1: it does not. */
+static int8_t bone_at(const struct slim_body *slim, const struct body *full, int part,
+		      float reach_m)
+{
+	int found = -1;
+	for (int b = 0; b < full->bone_count; b++) {
+		const struct bone *bone = &full->bone[b];
+		if ((int)bone->part != part || (found >= 0 && reach_m <= 0.0f))
+			continue;
+		reach_m -= v3_distance(bone->a_m, bone->b_m);
+		found = b;
+	}
+	return (int8_t)(found >= 0 && slim->turn[found].angle_rad != 0.0f ? found : -1);
+}
+
 static void find_ways(struct slim_body *slim, const struct body *full,
 		      const struct limb_shape *limb, unsigned whole)
 {
@@ -94,7 +125,7 @@ static void find_ways(struct slim_body *slim, const struct body *full,
 		int part = full->part[full->star[full->star_first[v]]];
 		struct slim_way *way = &slim->way[v];
 		bool stays = whole >> part & 1, joined = stays && part >= PART_LEG_LEFT;
-		*way = (struct slim_way){p, p.z, -1.0f};
+		*way = (struct slim_way){p, p.z, -1.0f, -1};
 		if (!stays || joined)
 			way->middle_m = body_nearest_bone(full, 1u << PART_TRUNK, p).z;
 		if (part == PART_TRUNK || (stays && !joined) || !body_beside(full, part, p, &at))
@@ -103,6 +134,7 @@ static void find_ways(struct slim_body *slim, const struct body *full,
 			hide(&slim->body, v);
 		way->axis_m = joined ? joined_to(p, at.axis_m, middle_m) : at.axis_m;
 		way->in = float_clamp(at.reach_m / (root_share * length_m[part]), 0.0f, 1.0f);
+		way->bone = bone_at(slim, full, part, at.reach_m);
 	}
 }
 
@@ -117,21 +149,85 @@ static struct v3 place(const struct slim_way *way, struct v3 p_m, float share)
 	return v3_lerp(flat_m, v3_lerp(way->axis_m, p_m, wide), way->in);
 }
 
+/* The turn of a bone of which `share` is left. */
+static struct v3 turned(const struct slim_turn *turn, struct v3 arm, float share)
+{
+	return v3_turn(arm, turn->axis, share * turn->angle_rad);
+}
+
+/* Where the bones of turned limbs begin when the body has grown to a share: each at the end of the
+ * one before. */
+static void pose(const struct slim_body *slim, const struct body *full, float share,
+		 struct slim_turn turn[BODY_BONES_MAX])
+{
+	memcpy(turn, slim->turn, sizeof slim->turn);
+	for (int b = 0; b < full->bone_count; b++) {
+		const struct bone *bone = &full->bone[b], *before = b > 0 ? bone - 1 : bone;
+		turn[b].at_m = bone->a_m;
+		if (b == 0 || before->part != bone->part || bone->part == PART_TRUNK)
+			continue;
+		struct v3 way = turned(&turn[b - 1], v3_sub(bone->a_m, before->a_m), 1.0f - share);
+		turn[b].at_m = v3_add(turn[b - 1].at_m, way);
+	}
+}
+
+/* A point goes with a bone: from where it would be if the bone were not turned. */
+static struct v3 with_bone(const struct slim_body *slim, const struct body *full, int v,
+			   struct v3 p_m)
+{
+	const struct slim_way *way = &slim->way[v];
+	if (way->bone < 0)
+		return p_m;
+	const struct slim_turn *turn = &slim->turn[way->bone];
+	struct v3 arm = v3_sub(p_m, full->bone[way->bone].a_m);
+	struct v3 to_m = v3_add(turn->at_m, turned(turn, arm, 1.0f - slim->share));
+	return v3_lerp(p_m, to_m, way->in);
+}
+
+struct v3 body_slim_carry(const struct slim_body *slim, const struct body *full, int triangle,
+			  struct v3 p_m, float share)
+{
+	const int *v = full->triangle[triangle].v;
+	struct slim_turn then[BODY_BONES_MAX];
+	struct v3 way = {0.0f, 0.0f, 0.0f};
+	pose(slim, full, share, then);
+	for (int k = 0; k < 3; k++) {
+		int b = slim->way[v[k]].bone;
+		if (b < 0)
+			continue;
+		struct v3 arm = v3_sub(p_m, slim->turn[b].at_m);
+		arm = turned(&slim->turn[b], arm, slim->share - share);
+		struct v3 step = v3_sub(v3_add(then[b].at_m, arm), p_m);
+		way = v3_mad(way, step, slim->way[v[k]].in);
+	}
+	return v3_mad(p_m, way, 1.0f / 3.0f);
+}
+
 void body_slim_grow(struct slim_body *slim, const struct body *full, float share)
 {
+	pose(slim, full, share, slim->turn);
+	slim->share = share;
 	for (int v = 0; v < full->vertex_count; v++)
-		slim->body.position_m[v] = place(&slim->way[v], full->position_m[v], share);
+		slim->body.position_m[v] =
+			with_bone(slim, full, v, place(&slim->way[v], full->position_m[v], share));
+	for (int b = 0; b < full->bone_count; b++) {
+		struct v3 way = v3_sub(full->bone[b].b_m, full->bone[b].a_m);
+		slim->body.bone[b].a_m = slim->turn[b].at_m;
+		slim->body.bone[b].b_m =
+			v3_add(slim->turn[b].at_m, turned(&slim->turn[b], way, 1.0f - share));
+	}
 	body_build_normals(&slim->body);
 	body_build_prisms(&slim->body);
 	body_refit(&slim->body);
 }
 
 bool body_slim_make(struct slim_body *slim, const struct body *full, const struct limb_shape *limb,
-		    unsigned whole)
+		    unsigned whole, const struct v3 toward[PART_COUNT])
 {
 	if (full->bone_count == 0)
 		return false;
 	share_mesh(&slim->body, full);
+	find_turns(slim, full, toward);
 	find_ways(slim, full, limb, whole);
 	body_slim_grow(slim, full, 0.0f);
 	return true;

@@ -85,6 +85,20 @@ static void check_limb(struct wrap *wrap, int part)
 		wrap_diagnose(wrap, "limb-outside", limb_mark(wrap, part), 0, words[part]);
 }
 
+static void check_sleeve(struct wrap *wrap, int part)
+{
+	const struct garment *garment = wrap->cloth->garment;
+	if (wrap->cloth->welded && !wrap_in_sleeve(wrap, part))
+		wrap_diagnose(
+			wrap, "limb-outside",
+			wrap_piece_mark(wrap, garment->piece[wrap->scratch->opening[part]]), 0,
+			part == PART_ARM_LEFT
+				? "The left arm is outside its sleeve; cut the sleeve so that it "
+				  "points where the arm does, or draw mark %1 anew."
+				: "The right arm is outside its sleeve; cut the sleeve so that it "
+				  "points where the arm does, or draw mark %1 anew.");
+}
+
 /* Does cloth of the trunk lie between the chest and the crown, across the neck? */
 static void check_head(struct wrap *wrap)
 {
@@ -108,6 +122,9 @@ static void check_head(struct wrap *wrap)
 void wrap_check(struct wrap *wrap)
 {
 	for (int part = PART_ARM_LEFT; part < PART_COUNT; part++)
-		check_limb(wrap, part);
+		if (wrap->scratch->opening[part] >= 0)
+			check_sleeve(wrap, part);
+		else
+			check_limb(wrap, part);
 	check_head(wrap);
 }

@@ -24,6 +24,9 @@ struct mark_line {
 struct wrap_scratch {
 	const struct body *full; /* to be dressed */
 	struct slim_body slim;   /* that the garment is laid and sewn round */
+	struct v3 toward[PART_COUNT]; /* where its arms point: to sleeves cut in one with the trunk */
+	int opening[PART_COUNT]; /* such a sleeve's: the vertex of rim that stands for it; -1: none */
+	int *rim;                /* per vertex (dress_sleeve.c) */
 	int8_t home[PIECES_MAX]; /* enum body_part that the piece belongs to, or PART_NONE */
 	struct limb_shape limb[PART_COUNT];
 	bool in_tube[PIECES_MAX]; /* it goes round its limb along piece_gather.along */
@@ -70,6 +73,16 @@ void wrap_find_homes(struct wrap *wrap);
 /* Parts that stay whole while the rest of the body is slim, as bits: a mask needs a face, and a
  * skirt legs with no gap to hang into. */
 unsigned wrap_whole_parts(const struct wrap *wrap);
+
+/* Finds the openings of sleeves cut in one with the trunk's pieces (scratch->rim, opening, toward).
+ * After wrap_grow_init (dress_sleeve.c). */
+void wrap_find_sleeves(struct wrap *wrap);
+
+/* Is the arm in its sleeve that is cut in one with the trunk? A rim goes once round its bones. */
+bool wrap_in_sleeve(const struct wrap *wrap, int part);
+
+/* Moves cloth along with arms that turn back while the slim body grows to a share. */
+void wrap_carry_sleeves(struct wrap *wrap, float share);
 
 /* Fills the cloth's piece_blown once it is sewn: what goes round something, being no disc. Open
  * cloth and a mask would be blown off. */

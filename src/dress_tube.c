@@ -93,6 +93,15 @@ static struct v3 clear_hand(const struct wrap *wrap, int home, struct v3 p_m, fl
 	return clear_by(limb, &at, p_m, hull_m + wrap->cloth->settings.offset_m);
 }
 
+/* So do sleeves cut in one with the trunk. */
+static struct v3 clear_bare(const struct wrap *wrap, struct v3 p_m, float of_hull)
+{
+	for (int part = PART_ARM_LEFT; part <= PART_ARM_RIGHT; part++)
+		if (wrap->scratch->opening[part] >= 0)
+			p_m = clear_hand(wrap, part, p_m, of_hull);
+	return p_m;
+}
+
 /* A collar goes round the hull of neck and head, and so far from it that an edge between two of its
  * points does: of a thin neck only the points would stay clear. */
 static struct v3 clear_neck(const struct wrap *wrap, struct v3 p_m, float of_hull)
@@ -119,6 +128,8 @@ long wrap_clear_hulls(struct wrap *wrap, float share)
 			*p = clear_hand(wrap, home, *p, of_hull);
 		else if (home == PART_TRUNK && !wrap->scratch->seeded[piece])
 			*p = clear_neck(wrap, *p, of_hull);
+		else if (home == PART_TRUNK)
+			*p = clear_bare(wrap, *p, of_hull);
 	}
 	return cloth->garment->vertex_count;
 }

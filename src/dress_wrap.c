@@ -30,6 +30,7 @@ void wrap_init(struct wrap *wrap, struct arena *arena)
 	s->seeded = ARENA_ARRAY(arena, uint8_t, PIECES_MAX);
 	s->sum_m = ARENA_ARRAY(arena, struct v3, GARMENT_VERTICES_MAX);
 	s->count = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
+	s->rim = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX);
 	s->edge_first = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX + 2);
 	s->edge_triangle = ARENA_ARRAY(arena, int, 3 * GARMENT_TRIANGLES_MAX);
 	body_slim_init(&s->slim, arena);
@@ -126,8 +127,9 @@ static bool lay_marks(struct wrap *wrap)
 	if (wrap_seed(wrap) == 0)
 		return false;
 	wrap_grow_init(wrap);
+	wrap_find_sleeves(wrap);
 	if (body_slim_make(&wrap->scratch->slim, wrap->scratch->full, wrap->scratch->limb,
-			   wrap_whole_parts(wrap)))
+			   wrap_whole_parts(wrap), wrap->scratch->toward))
 		turn_to(wrap->cloth, &wrap->scratch->slim.body);
 	enter(wrap, WRAP_GROW, growing());
 	return true;
@@ -142,6 +144,8 @@ static void begin(struct wrap *wrap, struct cloth *cloth, const struct marks *ma
 	wrap->mark_error_rms_m = wrap->mark_error_max_m = 0.0f;
 	memset(&wrap->diagnoses, 0, sizeof wrap->diagnoses);
 	wrap->scratch->mended = wrap->scratch->from_drape = false;
+	for (int part = 0; part < PART_COUNT; part++)
+		wrap->scratch->opening[part] = -1;
 	for (int number = 0; number < MARK_NUMBERS; number++)
 		wrap->scratch->partner[number] = number;
 }
@@ -338,6 +342,7 @@ static long fill(struct wrap *wrap)
 	}
 	if (wrap->progress % FILL_SWEEPS == 0) {
 		float share = fill_share(wrap);
+		wrap_carry_sleeves(wrap, share);
 		if (share < 1.0f)
 			body_slim_grow(&s->slim, s->full, share);
 		turn_to(wrap->cloth, share < 1.0f ? &s->slim.body : s->full);

@@ -75,7 +75,7 @@ static int count_crossings(const struct body *in, int *edges)
 static void test_round(void)
 {
 	struct wrap_scratch *s = wrap.scratch;
-	CHECK(body_slim_make(&s->slim, &body, s->limb, 0));
+	CHECK(body_slim_make(&s->slim, &body, s->limb, 0, NULL));
 	cloth.body = &s->slim.body;
 	for (int step = 0; step < 5; step++) {
 		float share = 0.25f * (float)step;
@@ -99,7 +99,7 @@ static void test_others(void)
 {
 	struct wrap_scratch *s = wrap.scratch;
 	struct v3 before_m[POINTS];
-	CHECK(body_slim_make(&s->slim, &body, s->limb, 0));
+	CHECK(body_slim_make(&s->slim, &body, s->limb, 0, NULL));
 	cloth.body = &s->slim.body;
 	lay_across();
 	memcpy(before_m, position_m, sizeof before_m);

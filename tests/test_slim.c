@@ -47,7 +47,7 @@ static void test_thin(void)
 {
 	int thin = 0, hidden = 0;
 	float deepest_m = 0.0f;
-	CHECK(body_slim_make(&slim_body, &body, limb, 0));
+	CHECK(body_slim_make(&slim_body, &body, limb, 0, NULL));
 	for (int v = 0; v < body.vertex_count; v++) {
 		struct beside at;
 		int part = part_of(v);
@@ -107,7 +107,7 @@ static void test_grown(void)
 static void test_whole(void)
 {
 	int moved[2] = {0};
-	CHECK(body_slim_make(&slim_body, &body, limb, 1u << PART_HEAD));
+	CHECK(body_slim_make(&slim_body, &body, limb, 1u << PART_HEAD, NULL));
 	for (int v = 0; v < body.vertex_count; v++)
 		moved[part_of(v) == PART_HEAD] += v3_distance(slim->position_m[v],
 							      body.position_m[v]) > 0.0f;
@@ -119,7 +119,7 @@ static void test_joined(void)
 {
 	unsigned legs = 1u << PART_LEG_LEFT | 1u << PART_LEG_RIGHT;
 	int inner = 0, outer = 0;
-	CHECK(body_slim_make(&slim_body, &body, limb, legs));
+	CHECK(body_slim_make(&slim_body, &body, limb, legs, NULL));
 	for (int v = 0; v < body.vertex_count; v++) {
 		struct beside at;
 		struct v3 p_m = body.position_m[v];
@@ -143,7 +143,7 @@ static void test_joined(void)
 static void test_boneless(void)
 {
 	body.bone_count = 0;
-	CHECK(!body_slim_make(&slim_body, &body, limb, 0));
+	CHECK(!body_slim_make(&slim_body, &body, limb, 0, NULL));
 }
 
 int main(void)
