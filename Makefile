@@ -90,6 +90,7 @@ SHORT = $(if $(V),,@echo '  $(1)' '$(patsubst $(B)/%,%,$(or $(2),$@))';)
 all: $(B)/kitsuke
 
 $(B)/kitsuke: $(call objects,$(MAIN)) $(B)/kitsuke.a
+$(B)/tests/test_display_kms: $(B)/tests/fake_card.o
 $(TESTS) $(BENCH) $(FUZZ): %: %.o $(B)/kitsuke.a
 .SECONDEXPANSION:
 $(TOOLS): %: %.o $$(call objects,$$(wildcard $$(subst $(B)/,,$$@)_*.c)) $(B)/kitsuke.a

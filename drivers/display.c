@@ -22,6 +22,23 @@ struct display *display_open(enum display_kind kind, int *width, int *height, ch
 	return NULL;
 }
 
+enum display_state display_ready(struct display *display)
+{
+	return display->verbs->ready ? display->verbs->ready(display) : DISPLAY_READY;
+}
+
+int display_generation(const struct display *display, int *width, int *height)
+{
+	*width = display->width;
+	*height = display->height;
+	return display->generation;
+}
+
+const char *display_reason(const struct display *display)
+{
+	return display->verbs->reason ? display->verbs->reason(display) : "";
+}
+
 bool display_present(struct display *display)
 {
 	return display->verbs->present(display);

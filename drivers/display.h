@@ -13,11 +13,30 @@ enum display_kind {
 struct display;
 
 /* Opens a display and makes its GLES context current. width/height: wanted for a window or
- * headless; what came for KMS. NULL with a line in fault (what, and the remedy). */
+ * headless; what came for KMS. NULL with a line in fault (what, and the remedy). A display on KMS
+ * opens without a screen too, as long as there is a card: it takes the one that comes. */
 struct display *display_open(enum display_kind kind, int *width, int *height, char fault[200]);
 
-/* Shows the frame and waits for the flip (KMS, window) or finishes it (headless). False: the
- * display went away; close it, and try to open one again later. */
+enum display_state {
+	DISPLAY_READY, /* draw a frame, then display_present */
+	DISPLAY_DARK,  /* nothing to draw on for now: go on without a picture, ask again next frame
+			*/
+	DISPLAY_GONE,  /* for good: close it */
+};
+
+/* Call once before each frame. Keeps the picture on the screen, through cables that are pulled,
+ * other programs and GPUs that reset; waits for a flip two frames at most. */
+enum display_state display_ready(struct display *display);
+
+/* Counts GL contexts, from 1. When it has changed after display_ready said DISPLAY_READY, whatever
+ * was made in GL is gone and must be made anew, for this size. */
+int display_generation(const struct display *display, int *width, int *height);
+
+/* Why there is no picture, in words; "" while there is one. */
+const char *display_reason(const struct display *display);
+
+/* Shows the frame and waits for the flip (KMS, window) or finishes it (headless). False: the frame
+ * was lost, or is late; display_ready knows more. */
 bool display_present(struct display *display);
 
 /* DISPLAY_WINDOW: adds the mouse as reports of mouse_descriptor (pen.h) on `device`, the buttons'
@@ -31,8 +50,9 @@ bool display_input(struct display *display, int device, int64_t now_us,
 void display_read(struct display *display, uint8_t *rgba);
 void display_close(struct display *display);
 
-/* Is there a DRM card whose master we could be, a desktop session? */
-bool display_kms_free(char why_not[200]);
+/* Is there a DRM card that shows pictures and whose master we could be, a desktop session?
+ * *taken: there is such a card, but another program holds it. */
+bool display_kms_free(bool *taken, char why_not[200]);
 bool display_session(void);
 
 #endif

@@ -126,7 +126,7 @@ struct display *display_headless_open(int *width, int *height, char fault[200])
 		snprintf(fault, 200, "no memory for a display");
 		return NULL;
 	}
-	headless->base = (struct display){&headless_verbs, *width, *height};
+	headless->base = (struct display){&headless_verbs, *width, *height, 1};
 	headless->context = EGL_NO_CONTEXT;
 	if (!context_open(headless)) {
 		snprintf(fault, 200,

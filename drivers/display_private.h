@@ -8,6 +8,8 @@
 #include <EGL/eglext.h>
 
 struct display_verbs {
+	enum display_state (*ready)(struct display *display); /* NULL: always */
+	const char *(*reason)(const struct display *display); /* NULL: none */
 	bool (*present)(struct display *display);
 	bool (*input)(struct display *display, int device, int64_t now_us,
 		      struct frame_reports *reports);
@@ -18,6 +20,7 @@ struct display_verbs {
 struct display {
 	const struct display_verbs *verbs;
 	int width, height;
+	int generation;
 };
 
 struct display *display_headless_open(int *width, int *height, char fault[200]);

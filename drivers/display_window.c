@@ -171,7 +171,7 @@ struct display *display_window_open(int *width, int *height, char fault[200])
 		snprintf(fault, 200, "no memory for a window");
 		return NULL;
 	}
-	window->base = (struct display){&window_verbs, *width, *height};
+	window->base = (struct display){&window_verbs, *width, *height, 1};
 	if (!window_make(window)) {
 		snprintf(fault, 200,
 			 "no window (%.120s): start it inside a desktop session with GLES 3.0",

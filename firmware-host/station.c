@@ -30,7 +30,9 @@ enum {
 	WINDOW_HEIGHT = 720,
 	FRAME_US = 1000000 / FRAME_RATE_HZ,
 	LATE_US = 3 * FRAME_US / 2,
-	REOPEN_FRAMES = 2 * FRAME_RATE_HZ, /* between tries to get a lost display back */
+	REDRAW_FRAMES = 2 * FRAME_RATE_HZ, /* between tries to make GL's objects anew */
+	DARK_WIDTH = 1920,                 /* of the picture while no screen says its size */
+	DARK_HEIGHT = 1080,
 };
 
 static const char usage[] =
@@ -44,6 +46,7 @@ struct station {
 	enum display_kind kind;
 	struct display *display;
 	struct draw *draw;
+	int generation; /* of the GL context that draw was made in */
 	int width, height;
 	void *memory;
 	struct threads threads;
@@ -53,9 +56,10 @@ struct station {
 	struct buttons *buttons;
 	int64_t start_us; /* of frame 0, on CLOCK_MONOTONIC; moves on with every late frame */
 	int64_t opened_us;
-	int journal; /* file, -1: none */
-	int touched; /* last frame with input */
-	int lost;    /* frame at which the display was lost */
+	int journal;    /* file, -1: none */
+	int touched;    /* last frame with input */
+	int redraw;     /* frame from which on drawing may be tried again */
+	char dark[200]; /* why there is no picture, as told last */
 	char fault[FAULT_BYTES];
 };
 
@@ -91,12 +95,14 @@ static bool read_board(struct station *station)
 	return read;
 }
 
-/* KMS when a display is free for us, else a window where there is a desktop session. */
+/* KMS when a display is free for us, else a window where there is a desktop session. A card that a
+ * splash screen still holds is waited for. */
 static bool choose_display(struct station *station)
 {
 	char why_not[200];
+	bool taken;
 	station->kind = DISPLAY_KMS;
-	if (display_kms_free(why_not))
+	if (display_kms_free(&taken, why_not) || (taken && !display_session()))
 		return true;
 	station->kind = DISPLAY_WINDOW;
 	station->width = WINDOW_WIDTH;
@@ -110,27 +116,40 @@ static bool choose_display(struct station *station)
 	return false;
 }
 
+/* GL's objects anew from what the processor has, when there is a new context. */
+static bool follow_context(struct station *station, char fault[200])
+{
+	int width, height, generation = display_generation(station->display, &width, &height);
+	if (station->draw && generation == station->generation)
+		return true;
+	draw_close(station->draw);
+	station->generation = generation;
+	station->draw = draw_open(width, height, fault);
+	if (station->draw)
+		draw_bones(station->draw, station->bones);
+	return station->draw;
+}
+
 static bool open_display(struct station *station)
 {
 	char fault[200];
 	station->display = display_open(station->kind, &station->width, &station->height, fault);
-	if (station->display)
-		station->draw = draw_open(station->width, station->height, fault);
-	if (station->draw) {
-		draw_bones(station->draw, station->bones);
-		return true;
-	}
-	if (station->display)
+	bool dark = station->display && station->kind == DISPLAY_KMS && !station->width;
+	if (dark) {
+		station->width = DARK_WIDTH;
+		station->height = DARK_HEIGHT;
+	} else if (station->display && !follow_context(station, fault)) {
 		display_close(station->display);
-	station->display = NULL;
-	snprintf(station->fault, FAULT_BYTES, "%s", fault);
-	return false;
+		station->display = NULL;
+	}
+	if (!station->display)
+		snprintf(station->fault, FAULT_BYTES, "%s", fault);
+	return station->display;
 }
 
 static void close_display(struct station *station)
 {
-	if (station->draw)
-		draw_close(station->draw);
+	draw_close(station->draw);
 	if (station->display)
 		display_close(station->display);
 	station->draw = NULL;
@@ -209,7 +228,7 @@ static bool begin_visit(struct station *station)
 	pen_describe(&kiosk->pen, LIVE_KEYS, buttons_descriptor, buttons_descriptor_size);
 	if (station->draw)
 		draw_body_changed(station->draw);
-	station->touched = 0;
+	station->touched = station->redraw = 0;
 	station->start_us = live_clock_us();
 	open_journal(station);
 	write_journal(station, JOURNAL_HEADER, (int)strlen(JOURNAL_HEADER));
@@ -284,19 +303,37 @@ static unsigned collect(struct station *station)
 	return unplugged;
 }
 
-static void show(struct station *station)
+static void tell_dark(struct station *station)
+{
+	const char *reason = display_reason(station->display);
+	if (strcmp(station->dark, reason) == 0)
+		return;
+	snprintf(station->dark, sizeof station->dark, "%s", reason);
+	fprintf(stderr, "kitsuke: %s%s\n", reason[0] ? "no picture: " : "the picture is back",
+		reason);
+}
+
+/* Without a display the visit goes on unseen. False: the display has failed for good. */
+static bool show(struct station *station)
 {
 	struct kiosk *kiosk = station->kiosk;
-	if (station->display) {
-		draw_frame(station->draw, &kiosk->ui, &kiosk->session);
-		if (display_present(station->display))
-			return;
-		say("the display went away; waiting for it");
-		close_display(station);
-		station->lost = kiosk->frame;
+	char fault[200];
+	enum display_state state = display_ready(station->display);
+	tell_dark(station);
+	if (state == DISPLAY_GONE) {
+		snprintf(station->fault, FAULT_BYTES, "%s", display_reason(station->display));
+		return false;
 	}
-	if ((kiosk->frame - station->lost) % REOPEN_FRAMES == REOPEN_FRAMES - 1)
-		open_display(station);
+	if (state == DISPLAY_DARK || kiosk->frame < station->redraw)
+		return true;
+	if (follow_context(station, fault)) {
+		draw_frame(station->draw, &kiosk->ui, &kiosk->session);
+		display_present(station->display);
+	} else {
+		say(fault);
+		station->redraw = kiosk->frame + REDRAW_FRAMES;
+	}
+	return true;
 }
 
 /* Sleeps until the frame's end by the wall's clock, or lets a late frame slow the program down. */
@@ -336,7 +373,8 @@ static bool run(struct station *station)
 		unsigned unplugged = collect(station);
 		kiosk_frame(station->kiosk, station->reports, unplugged);
 		write_journal(station, station->kiosk->journal, station->kiosk->journal_size);
-		show(station);
+		if (!show(station))
+			return false;
 		pace(station);
 		if (idle(station)) {
 			end_visit(station);
