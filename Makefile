@@ -57,7 +57,7 @@ objects = $(patsubst %.c,$(B)/%.o,$(1))
 # The pure part: what turns a tape into a state hash. It needs a C library and no package at all.
 CORE := $(call sources,src)
 PURE := $(CORE) $(wildcard drivers/tape*.c) \
-        $(wildcard drivers/pen*.c) \
+        $(wildcard drivers/pen*.c drivers/plane_map.c) \
         $(filter-out ui/draw%,$(call sources,ui)) \
         $(wildcard firmware-host/kiosk*.c firmware-host/must.c firmware-host/threads.c)
 
@@ -97,6 +97,7 @@ $(TOOLS): %: %.o $$(call objects,$$(wildcard $$(subst $(B)/,,$$@)_*.c)) $(B)/kit
 $(FUZZ): LINK := -fsanitize=fuzzer
 # Calls that a program of the tests wants to see pass: the linker sends our calls of f to __wrap_f.
 $(B)/tests/bench_frame: LINK := -Wl,--wrap=drag_move,--wrap=cloth_self
+$(B)/tests/test_display_turn: LINK := -Wl,--wrap=display_context_lost
 $(B)/tests/test_allocation: LINK := $(patsubst %,-Wl$(comma)--wrap=%,malloc calloc realloc \
                              aligned_alloc posix_memalign strdup strndup)
 

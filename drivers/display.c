@@ -22,25 +22,75 @@ struct display *display_open(enum display_kind kind, int *width, int *height, ch
 	return NULL;
 }
 
-enum display_state display_ready(struct display *display)
+static bool plain(const struct display *display)
 {
-	return display->verbs->ready ? display->verbs->ready(display) : DISPLAY_READY;
+	return display->width == 0 ||
+	       (display->degrees == 0 && display->width == display->panel_width &&
+		display->height == display->panel_height);
 }
 
-int display_generation(const struct display *display, int *width, int *height)
+void display_turn(struct display *display, int width, int height, int degrees)
 {
-	*width = display->width;
-	*height = display->height;
+	MUST(width > 0 && height > 0);
+	display->width = width;
+	display->height = height;
+	display->degrees = degrees;
+	display->context = 0;
+}
+
+/* The turn of an older context went with it. */
+static bool turn_follow(struct display *display)
+{
+	if (display->context == display->contexts)
+		return true;
+	if (display->turn.framebuffer && display->turn_context == display->contexts)
+		turn_close(&display->turn);
+	display->turn = (struct turn){0};
+	if (!plain(display) &&
+	    !turn_open(&display->turn, display->width, display->height, display->degrees,
+		       display->panel_width, display->panel_height))
+		return false;
+	display->context = display->turn_context = display->contexts;
+	display->generation++;
+	return true;
+}
+
+enum display_state display_ready(struct display *display)
+{
+	const struct display_verbs *verbs = display->verbs;
+	enum display_state state = verbs->ready ? verbs->ready(display) : DISPLAY_READY;
+	if (state != DISPLAY_READY)
+		return state;
+	if (!turn_follow(display))
+		return DISPLAY_DARK;
+	glBindFramebuffer(GL_FRAMEBUFFER,
+			  display->turn.framebuffer ? display->turn.framebuffer : display->panel);
+	return DISPLAY_READY;
+}
+
+int display_generation(const struct display *display)
+{
 	return display->generation;
+}
+
+void display_size(const struct display *display, int *width, int *height)
+{
+	*width = display->panel_width;
+	*height = display->panel_height;
 }
 
 const char *display_reason(const struct display *display)
 {
-	return display->verbs->reason ? display->verbs->reason(display) : "";
+	const char *reason = display->verbs->reason ? display->verbs->reason(display) : "";
+	if (!reason[0] && display->contexts && display->context != display->contexts)
+		return "the GPU draws no picture of this size: choose a smaller mode";
+	return reason;
 }
 
 bool display_present(struct display *display)
 {
+	if (display->turn.framebuffer)
+		turn_show(&display->turn, display->panel);
 	return display->verbs->present(display);
 }
 
@@ -59,7 +109,8 @@ void display_close(struct display *display)
 /* GL counts rows from the bottom; pictures from the top. Rows are swapped in place. */
 void display_read(struct display *display, uint8_t *rgba)
 {
-	int width = display->width, height = display->height;
+	int width = display->width ? display->width : display->panel_width;
+	int height = display->height ? display->height : display->panel_height;
 	glPixelStorei(GL_PACK_ALIGNMENT, 1);
 	glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
 	for (int top = 0; top < height / 2; top++) {

@@ -14,8 +14,13 @@ struct display;
 
 /* Opens a display and makes its GLES context current. width/height: wanted for a window or
  * headless; what came for KMS. NULL with a line in fault (what, and the remedy). A display on KMS
- * opens without a screen too, as long as there is a card: it takes the one that comes. */
+ * opens without a screen too, as long as there is a card: it takes the one that comes, and
+ * width and height are 0. */
 struct display *display_open(enum display_kind kind, int *width, int *height, char fault[200]);
+
+/* The picture's own size, and how it is turned on the display, degrees clockwise: 0, 90, 180, 270.
+ * It is shown as large as fits (plane_map_fit). Without this call it is as the display is. */
+void display_turn(struct display *display, int width, int height, int degrees);
 
 enum display_state {
 	DISPLAY_READY, /* draw a frame, then display_present */
@@ -29,8 +34,11 @@ enum display_state {
 enum display_state display_ready(struct display *display);
 
 /* Counts GL contexts, from 1. When it has changed after display_ready said DISPLAY_READY, whatever
- * was made in GL is gone and must be made anew, for this size. */
-int display_generation(const struct display *display, int *width, int *height);
+ * was made in GL is gone and must be made anew. */
+int display_generation(const struct display *display);
+
+/* The display's own size in px; 0 x 0 while there is none. */
+void display_size(const struct display *display, int *width, int *height);
 
 /* Why there is no picture, in words; "" while there is one. */
 const char *display_reason(const struct display *display);
@@ -45,8 +53,8 @@ bool display_present(struct display *display);
 bool display_input(struct display *display, int device, int64_t now_us,
 		   struct frame_reports *reports);
 
-/* The frame just drawn, 4 bytes a pixel RGBA, top row first; size width * height * 4. Call before
- * display_present. */
+/* The frame just drawn, before it is turned, 4 bytes a pixel RGBA, top row first; size width *
+ * height * 4. Call before display_present. */
 void display_read(struct display *display, uint8_t *rgba);
 void display_close(struct display *display);
 

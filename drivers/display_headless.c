@@ -3,8 +3,6 @@
  * platform, the way NVIDIA's driver does without a window system. */
 #include "display_private.h"
 
-#include <GLES3/gl3.h>
-#include <GLES2/gl2ext.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -15,6 +13,7 @@ struct headless {
 	EGLDisplay egl;
 	EGLContext context;
 	GLuint framebuffer, colour, depth;
+	bool lost;
 };
 
 static EGLDisplay platform_open(EGLenum platform, void *native)
@@ -64,43 +63,12 @@ static bool context_open(struct headless *headless)
 
 static bool framebuffer_open(struct headless *headless)
 {
-	int width = headless->base.width, height = headless->base.height;
-	GLint largest = 0;
-	/* Pixels in the byte order of screens and of cairo: copies need no conversion. */
-	GLenum format = display_extension((const char *)glGetString(GL_EXTENSIONS),
-					  "GL_EXT_texture_format_BGRA8888")
-				? GL_BGRA_EXT
-				: GL_RGBA;
-	glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
-	if (width > largest || height > largest)
-		return false;
-	glGenTextures(1, &headless->colour);
-	glBindTexture(GL_TEXTURE_2D, headless->colour);
-	glTexImage2D(GL_TEXTURE_2D, 0, (GLint)format, width, height, 0, format, GL_UNSIGNED_BYTE,
-		     NULL);
-	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-	glGenRenderbuffers(1, &headless->depth);
-	glBindRenderbuffer(GL_RENDERBUFFER, headless->depth);
-	glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, width, height);
-	glGenFramebuffers(1, &headless->framebuffer);
-	glBindFramebuffer(GL_FRAMEBUFFER, headless->framebuffer);
-	glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
-			       headless->colour, 0);
-	glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
-				  headless->depth);
-	return glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+	return turn_target(&headless->framebuffer, &headless->colour, &headless->depth,
+			   headless->base.panel_width, headless->base.panel_height);
 }
 
-static bool headless_present(struct display *display)
+static void context_close(struct headless *headless)
 {
-	(void)display;
-	glFinish();
-	return !display_context_lost();
-}
-
-static void headless_close(struct display *display)
-{
-	struct headless *headless = (struct headless *)display;
 	if (headless->context != EGL_NO_CONTEXT) {
 		glDeleteFramebuffers(1, &headless->framebuffer);
 		glDeleteTextures(1, &headless->colour);
@@ -111,10 +79,40 @@ static void headless_close(struct display *display)
 	if (headless->egl != EGL_NO_DISPLAY)
 		eglTerminate(headless->egl);
 	eglReleaseThread();
-	free(headless);
+	headless->context = EGL_NO_CONTEXT;
+	headless->egl = EGL_NO_DISPLAY;
+}
+
+static enum display_state headless_ready(struct display *display)
+{
+	struct headless *headless = (struct headless *)display;
+	if (!headless->lost)
+		return DISPLAY_READY;
+	context_close(headless);
+	if (!context_open(headless) || !framebuffer_open(headless))
+		return DISPLAY_DARK;
+	headless->lost = false;
+	display->panel = headless->framebuffer;
+	display->contexts++;
+	return DISPLAY_READY;
+}
+
+static bool headless_present(struct display *display)
+{
+	struct headless *headless = (struct headless *)display;
+	glFinish();
+	headless->lost = display_context_lost();
+	return !headless->lost;
+}
+
+static void headless_close(struct display *display)
+{
+	context_close((struct headless *)display);
+	free(display);
 }
 
 static const struct display_verbs headless_verbs = {
+	.ready = headless_ready,
 	.present = headless_present,
 	.close = headless_close,
 };
@@ -126,7 +124,10 @@ struct display *display_headless_open(int *width, int *height, char fault[200])
 		snprintf(fault, 200, "no memory for a display");
 		return NULL;
 	}
-	headless->base = (struct display){&headless_verbs, *width, *height, 1};
+	headless->base = (struct display){.verbs = &headless_verbs,
+					  .panel_width = *width,
+					  .panel_height = *height,
+					  .contexts = 1};
 	headless->context = EGL_NO_CONTEXT;
 	if (!context_open(headless)) {
 		snprintf(fault, 200,
@@ -142,5 +143,6 @@ struct display *display_headless_open(int *width, int *height, char fault[200])
 		headless_close(&headless->base);
 		return NULL;
 	}
+	headless->base.panel = headless->framebuffer;
 	return &headless->base;
 }

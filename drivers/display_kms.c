@@ -166,9 +166,12 @@ static bool picture_open(void *of, const struct kms_card *card, char fault[200])
 	struct output *output = of;
 	output->card = card;
 	if (gl_open(output)) {
-		output->base.width = card->mode.hdisplay;
-		output->base.height = card->mode.vdisplay;
-		output->base.generation++;
+		output->base.panel_width = card->mode.hdisplay;
+		output->base.panel_height = card->mode.vdisplay;
+		output->base.contexts++;
+		/* screens that come later are asked for the same */
+		output->kms.width = card->mode.hdisplay;
+		output->kms.height = card->mode.vdisplay;
 		return true;
 	}
 	snprintf(fault, 200, "%s: no GLES 3.0 on it (EGL error 0x%04x): install Mesa's driver",
@@ -260,10 +263,8 @@ struct display *display_kms_open(int *width, int *height, char fault[200])
 		output_close(&output->base);
 		return NULL;
 	}
-	if (output->base.generation) {
-		*width = output->base.width;
-		*height = output->base.height;
-	}
+	*width = output->base.panel_width;
+	*height = output->base.panel_height;
 	return &output->base;
 }
 

@@ -3,6 +3,7 @@
 #define DISPLAY_PRIVATE_H
 
 #include "display.h"
+#include "display_turn.h"
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -19,8 +20,15 @@ struct display_verbs {
 /* The first member of each kind's own struct. */
 struct display {
 	const struct display_verbs *verbs;
-	int width, height;
-	int generation;
+	/* the kind's: size in px, framebuffer, contexts made so far; 0 x 0: there is none yet */
+	int panel_width, panel_height;
+	GLuint panel;
+	int contexts;
+	/* the door's: the picture, on the panel by the turn when that isn't plain */
+	int width, height, degrees;
+	struct turn turn;
+	int generation, context; /* context: for which the turn was decided; 0: not yet */
+	int turn_context;        /* that its objects are in */
 };
 
 struct display *display_headless_open(int *width, int *height, char fault[200]);

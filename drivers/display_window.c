@@ -15,13 +15,31 @@ struct window {
 	SDL_GLContext context;
 	uint8_t mouse, buttons; /* bits of the last reports */
 	int x, y;
+	bool lost;
 };
 
 static bool window_present(struct display *display)
 {
 	struct window *window = (struct window *)display;
 	SDL_GL_SwapWindow(window->window);
-	return !display_context_lost();
+	window->lost = display_context_lost();
+	return !window->lost;
+}
+
+static enum display_state window_ready(struct display *display)
+{
+	struct window *window = (struct window *)display;
+	if (!window->lost)
+		return DISPLAY_READY;
+	if (window->context)
+		SDL_GL_DeleteContext(window->context);
+	window->context = SDL_GL_CreateContext(window->window);
+	if (!window->context)
+		return DISPLAY_DARK;
+	SDL_GL_SetSwapInterval(1);
+	window->lost = false;
+	display->contexts++;
+	return DISPLAY_READY;
 }
 
 static struct raw_report *report_take(struct frame_reports *reports, int device, int64_t now_us,
@@ -40,8 +58,8 @@ static void mouse_report(const struct window *window, int device, int64_t now_us
 	struct raw_report *report = report_take(reports, device, now_us, 7);
 	if (!report)
 		return;
-	int x = window->x * MOUSE_SPAN / int_max(window->base.width - 1, 1);
-	int y = window->y * MOUSE_SPAN / int_max(window->base.height - 1, 1);
+	int x = window->x * MOUSE_SPAN / int_max(window->base.panel_width - 1, 1);
+	int y = window->y * MOUSE_SPAN / int_max(window->base.panel_height - 1, 1);
 	int pressure = window->mouse & MOUSE_TIP ? MOUSE_FULL : 0;
 	const int word[3] = {int_clamp(x, 0, MOUSE_SPAN), int_clamp(y, 0, MOUSE_SPAN), pressure};
 	report->bytes[0] = window->mouse;
@@ -140,6 +158,7 @@ static void window_close(struct display *display)
 }
 
 static const struct display_verbs window_verbs = {
+	.ready = window_ready,
 	.present = window_present,
 	.input = window_input,
 	.close = window_close,
@@ -155,8 +174,8 @@ static bool window_make(struct window *window)
 	SDL_GL_SetAttribute(SDL_GL_DEPTH_SIZE, 24);
 	SDL_GL_SetAttribute(SDL_GL_DOUBLEBUFFER, 1);
 	window->window = SDL_CreateWindow("着付け kitsuke", SDL_WINDOWPOS_CENTERED,
-					  SDL_WINDOWPOS_CENTERED, window->base.width,
-					  window->base.height, SDL_WINDOW_OPENGL);
+					  SDL_WINDOWPOS_CENTERED, window->base.panel_width,
+					  window->base.panel_height, SDL_WINDOW_OPENGL);
 	window->context = window->window ? SDL_GL_CreateContext(window->window) : NULL;
 	if (!window->context)
 		return false;
@@ -171,7 +190,10 @@ struct display *display_window_open(int *width, int *height, char fault[200])
 		snprintf(fault, 200, "no memory for a window");
 		return NULL;
 	}
-	window->base = (struct display){&window_verbs, *width, *height, 1};
+	window->base = (struct display){.verbs = &window_verbs,
+					.panel_width = *width,
+					.panel_height = *height,
+					.contexts = 1};
 	if (!window_make(window)) {
 		snprintf(fault, 200,
 			 "no window (%.120s): start it inside a desktop session with GLES 3.0",

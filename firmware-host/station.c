@@ -119,26 +119,33 @@ static bool choose_display(struct station *station)
 /* GL's objects anew from what the processor has, when there is a new context. */
 static bool follow_context(struct station *station, char fault[200])
 {
-	int width, height, generation = display_generation(station->display, &width, &height);
+	int generation = display_generation(station->display);
 	if (station->draw && generation == station->generation)
 		return true;
 	draw_close(station->draw);
 	station->generation = generation;
-	station->draw = draw_open(width, height, fault);
+	station->draw = draw_open(station->width, station->height, fault);
 	if (station->draw)
 		draw_bones(station->draw, station->bones);
 	return station->draw;
 }
 
+/* The picture keeps the size of the first screen: what is worn and drawn is at home in it, and
+ * other screens show it as large as it fits. */
 static bool open_display(struct station *station)
 {
 	char fault[200];
-	station->display = display_open(station->kind, &station->width, &station->height, fault);
-	bool dark = station->display && station->kind == DISPLAY_KMS && !station->width;
-	if (dark) {
-		station->width = DARK_WIDTH;
-		station->height = DARK_HEIGHT;
-	} else if (station->display && !follow_context(station, fault)) {
+	int width = station->width, height = station->height, degrees = station->board.rotation;
+	station->display = display_open(station->kind, &width, &height, fault);
+	if (station->display) {
+		width = width ? width : DARK_WIDTH;
+		height = height ? height : DARK_HEIGHT;
+		station->width = degrees % 180 ? height : width;
+		station->height = degrees % 180 ? width : height;
+		display_turn(station->display, station->width, station->height, degrees);
+	}
+	if (station->display && display_ready(station->display) == DISPLAY_READY &&
+	    !follow_context(station, fault)) {
 		display_close(station->display);
 		station->display = NULL;
 	}
