@@ -23,6 +23,7 @@
  */
 #include "pen.h"
 #include "pen_filter.h"
+#include "pen_settle.h"
 
 #include <stdio.h>
 
@@ -39,7 +40,10 @@ enum {
 void pen_init(struct pen *pen, int width_px, int height_px)
 {
 	MUST(width_px > 0 && height_px > 0);
-	*pen = (struct pen){.mapping = {width_px, height_px}, .touching = -1};
+	*pen = (struct pen){.mapping = {width_px, height_px},
+			    .touching = -1,
+			    .contact_least_us = PEN_CONTACT_LEAST_US,
+			    .merge_us = PEN_MERGE_US};
 }
 
 static void device_reset(struct pen *pen, int device)
@@ -81,45 +85,38 @@ void pen_resize(struct pen *pen, int device, float width_mm, float height_mm)
 
 /* --- samples ---------------------------------------------------------------------------------- */
 
-/* A full frame keeps its newest state: the last sample is the one that later frames build on. */
 static void sample_give(struct pen *pen, int device, const struct pen_sample *sample,
 			struct frame_input *input)
 {
-	if (input->sample_count == FRAME_SAMPLES_MAX)
-		input->sample_count--;
-	input->sample[input->sample_count++] = *sample;
 	struct pen_device *d = &pen->device[device];
-	d->last = *sample;
-	d->state = sample->state;
-	if (sample->state == PEN_TOUCH)
-		pen->touching = device;
-	else if (pen->touching == device)
-		pen->touching = -1;
+	d->heard = *sample;
+	pen_settle(pen, device, sample, d->filtered_mm, input);
 }
 
 /* The pen is gone: the last position once more, without contact. */
 static void sample_away(struct pen *pen, int device, int64_t time_us, struct frame_input *input)
 {
 	struct pen_device *d = &pen->device[device];
-	struct pen_sample sample = d->last;
+	struct pen_sample sample = d->heard;
 	sample.state = PEN_AWAY;
 	sample.time_us = time_us;
 	sample.pressure = 0.0f;
 	sample.barrel = sample.eraser = false;
 	d->placed = d->suspected = false;
-	d->contact_reports = 0;
 	sample_give(pen, device, &sample, input);
 }
 
 static void silence_check(struct pen *pen, int device, int64_t now_us, struct frame_input *input)
 {
 	struct pen_device *d = &pen->device[device];
-	if (d->kind != DEVICE_PEN || d->state == PEN_AWAY || d->desktop)
+	if (d->kind != DEVICE_PEN || d->heard.state == PEN_AWAY || d->desktop)
 		return;
 	bool resting = v2_length(d->speed_mm_s) < RESTING_MM_S;
 	int64_t limit_us = resting ? SILENCE_RESTING_US : d->silence_us;
-	if (now_us - d->last_us >= limit_us)
+	if (now_us - d->last_us >= limit_us) {
 		sample_away(pen, device, d->last_us + limit_us, input);
+		pen_settle_end(pen, device, input);
+	}
 }
 
 /* --- one report ------------------------------------------------------------------------------- */
@@ -141,7 +138,7 @@ static enum pen_state state_next(const struct pen_device *d, const struct pen_la
 		return on && layout->tip.size ? PEN_TOUCH : PEN_HOVER;
 	int64_t range = (int64_t)layout->pressure.maximum - layout->pressure.minimum;
 	int64_t pressed = (int64_t)f->pressure - layout->pressure.minimum;
-	bool hard = d->state == PEN_TOUCH ? 100 * pressed >= range : 20 * pressed >= range;
+	bool hard = d->heard.state == PEN_TOUCH ? 100 * pressed >= range : 20 * pressed >= range;
 	return on && hard ? PEN_TOUCH : PEN_HOVER;
 }
 
@@ -193,22 +190,23 @@ static void pen_report(struct pen *pen, const struct raw_report *report, struct 
 	if (!layout || (pen->touching >= 0 && pen->touching != report->device))
 		return;
 	silence_check(pen, report->device, report->time_us, input);
+	pen_settle_time(pen, report->device, report->time_us, input);
 	enum pen_state state = state_next(d, layout, &f);
 	bool null = position_null(layout, &f);
 	if (state == PEN_AWAY || (null && !d->placed)) {
 		sample_away(pen, report->device, report->time_us, input);
 		return;
 	}
-	struct pen_sample sample = d->last;
+	struct pen_sample sample = d->heard;
 	sample.time_us = report->time_us;
 	if (!null) {
-		bool drawing = d->state == PEN_TOUCH && state == PEN_TOUCH;
+		bool drawing = d->heard.state == PEN_TOUCH && state == PEN_TOUCH;
 		struct v2 mm = position_next(pen, d, layout, &f, drawing,
 					     report->time_us - d->last_us);
 		sample.position_px = pen_mm_to_px(pen, d, layout, mm);
 		d->last_us = report->time_us;
 	}
-	if (state != PEN_TOUCH)
+	if (d->heard.state != PEN_TOUCH && d->doubt != PEN_LIFTED)
 		d->contact_reports = 0;
 	sample.state = state;
 	sample.pressure = state == PEN_TOUCH ? pressure_next(d, layout, &f) : 0.0f;
@@ -242,8 +240,9 @@ void pen_unplugged(struct pen *pen, int device, struct frame_input *input)
 {
 	MUST(device >= 0 && device < PEN_DEVICES_MAX);
 	struct pen_device *d = &pen->device[device];
-	if (d->kind == DEVICE_PEN && d->state != PEN_AWAY)
-		sample_away(pen, device, d->last.time_us, input);
+	if (d->kind == DEVICE_PEN && d->heard.state != PEN_AWAY)
+		sample_away(pen, device, d->heard.time_us, input);
+	pen_settle_end(pen, device, input);
 	d->buttons_held = 0;
 	buttons_collect(pen, input);
 }
@@ -262,7 +261,9 @@ void pen_read(struct pen *pen, const struct frame_reports *reports, int64_t now_
 		else if (d->kind == DEVICE_PEN)
 			pen_report(pen, report, input);
 	}
-	for (int i = 0; i < PEN_DEVICES_MAX; i++)
+	for (int i = 0; i < PEN_DEVICES_MAX; i++) {
 		silence_check(pen, i, now_us, input);
+		pen_settle_time(pen, i, now_us, input);
+	}
 	buttons_collect(pen, input);
 }

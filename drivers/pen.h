@@ -14,6 +14,12 @@
 
 enum { PEN_DEVICES_MAX = 8, PEN_REPORTS_MAX = 6, DESCRIPTOR_BYTES_MAX = 4096 };
 
+enum {
+	PEN_CONTACT_LEAST_US = 15000, /* what is shorter is no contact */
+	PEN_MERGE_US = 30000,         /* what breaks off for less goes on */
+	PEN_WAITING_MAX = 64,         /* 30 ms at 2000 reports a second */
+};
+
 /* A field of a report: where its bits lie and what they mean. size 0: the pen has no such field. */
 struct pen_field {
 	int bit;  /* from the start of the report, the id byte included */
@@ -45,6 +51,13 @@ enum device_kind {
 	DEVICE_BUTTONS, /* our own one-byte report: bit per enum button */
 };
 
+/* What is not yet decided (pen_settle.h). */
+enum pen_doubt {
+	PEN_SURE,
+	PEN_BEGUN,  /* touching: long enough to be a contact? */
+	PEN_LIFTED, /* lifted under pressure: or is it a flicker? */
+};
+
 struct pen_device {
 	enum device_kind kind;
 	int layout_count;
@@ -54,8 +67,8 @@ struct pen_device {
 	uint8_t buttons_held;      /* DEVICE_BUTTONS */
 	long dropped;              /* reports too short for their layout */
 
-	/* contact: the state, and what ends it */
-	enum pen_state state;
+	/* contact: the last sample as the report had it, and what ends it */
+	struct pen_sample heard;
 	int64_t last_us;     /* of the last report with a position */
 	int64_t silence_us;  /* so long after motion, and the pen is gone */
 	bool desktop;        /* our own mouse: nothing to filter, and silence is rest */
@@ -66,7 +79,15 @@ struct pen_device {
 	struct v2 suspect_mm; /* a jump that the next report must confirm */
 	bool suspected, placed;
 
-	struct pen_sample last; /* the last sample given */
+	/* decided: the last sample given, its state, and what waits */
+	struct pen_sample last;
+	enum pen_state state;
+	enum pen_doubt doubt;
+	int64_t doubt_us;
+	struct v2 lifted_mm; /* where it touched last */
+	int waiting_count;
+	struct pen_sample waiting[PEN_WAITING_MAX];
+	long chatter, merged; /* contacts left out; lifts left out */
 };
 
 /* How tablet millimetres become screen pixels: one scale, so that a circle stays a circle. The
@@ -78,6 +99,7 @@ struct pen_mapping {
 struct pen {
 	struct pen_mapping mapping;
 	int touching; /* the device whose tip is down, others must wait; -1: none */
+	int64_t contact_least_us, merge_us; /* 0: contacts and lifts are taken as they come */
 	struct pen_device device[PEN_DEVICES_MAX];
 };
 
@@ -109,7 +131,8 @@ void pen_unplugged(struct pen *pen, int device, struct frame_input *input);
 
 /* One frame's reports to samples and button masks; `now_us` is the frame's end and lets time-outs
  * end strokes that the pen never ended. Adds to input (zeroed by the caller). Every pen report
- * gives one sample; while one pen touches, the reports of others are left out. */
+ * gives one sample, if late by what pen_settle.h decides; while one pen touches, the reports of
+ * others are left out. */
 void pen_read(struct pen *pen, const struct frame_reports *reports, int64_t now_us,
 	      struct frame_input *input);
 

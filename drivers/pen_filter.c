@@ -60,27 +60,26 @@ struct v2 pen_mm_to_px(const struct pen *pen, const struct pen_device *device,
 			   float_clamp(px.y, 0.0f, size_px.y - 1.0f)};
 }
 
-static bool jump(struct v2 from_mm, struct v2 to_mm, float dt_s)
-{
-	float distance_mm = v2_distance(from_mm, to_mm);
-	return distance_mm > JUMP_LEAST_MM && distance_mm > JUMP_MM_S * dt_s;
-}
-
 static float seconds(int64_t dt_us)
 {
 	int64_t bounded = dt_us < 500 ? 500 : dt_us > 100000 ? 100000 : dt_us;
 	return (float)bounded * 1e-6f;
 }
 
+bool pen_jump(struct v2 from_mm, struct v2 to_mm, int64_t dt_us)
+{
+	float distance_mm = v2_distance(from_mm, to_mm);
+	return distance_mm > JUMP_LEAST_MM && distance_mm > JUMP_MM_S * seconds(dt_us);
+}
+
 bool pen_jump_held(struct pen_device *device, struct v2 mm, int64_t dt_us)
 {
-	float dt_s = seconds(dt_us);
-	if (device->suspected && !jump(device->suspect_mm, mm, dt_s)) {
+	if (device->suspected && !pen_jump(device->suspect_mm, mm, dt_us)) {
 		device->suspected = false;
 		pen_filter_reset(device, mm);
 		return false;
 	}
-	device->suspected = jump(device->raw_mm, mm, dt_s);
+	device->suspected = pen_jump(device->raw_mm, mm, dt_us);
 	device->suspect_mm = mm;
 	return device->suspected;
 }

@@ -13,6 +13,9 @@ struct v2 pen_place_mm(const struct pen *pen, const struct pen_device *device,
 struct v2 pen_mm_to_px(const struct pen *pen, const struct pen_device *device,
 		       const struct pen_layout *layout, struct v2 mm);
 
+/* Can no hand come from there to here in that time? */
+bool pen_jump(struct v2 from_mm, struct v2 to_mm, int64_t dt_us);
+
 /* Is the next position a jump that no hand makes? Then the last one holds until a second report
  * confirms the jump. */
 bool pen_jump_held(struct pen_device *device, struct v2 mm, int64_t dt_us);

@@ -142,7 +142,8 @@ static int descriptor_find(int row, const struct tape *tape, struct found *found
 /* --- samples ---------------------------------------------------------------------------------- */
 
 struct played {
-	long samples, contacts, strokes_short;
+	long samples, contacts, contacts_short, contacts_split;
+	int64_t down_us, up_us; /* of the last contact */
 	bool sound;
 	struct hash hash;
 };
@@ -160,7 +161,16 @@ static void sample_check(struct played *played, const struct pen_sample *last,
 	sound &= s->tilt_rad.x > -1.6f && s->tilt_rad.x < 1.6f;
 	played->sound &= sound;
 	played->samples++;
-	played->contacts += s->state == PEN_TOUCH && last->state != PEN_TOUCH;
+	bool touch = s->state == PEN_TOUCH, touched = last->state == PEN_TOUCH;
+	if (touch && !touched) {
+		played->contacts_split += played->contacts &&
+					  s->time_us - played->up_us < PEN_MERGE_US;
+		played->contacts++;
+		played->down_us = s->time_us;
+	} else if (touched && !touch) {
+		played->contacts_short += s->time_us - played->down_us < PEN_CONTACT_LEAST_US;
+		played->up_us = s->time_us;
+	}
 	hash_int(&played->hash, (int)s->state);
 	hash_float(&played->hash, s->position_px.x);
 	hash_float(&played->hash, s->position_px.y);
@@ -194,7 +204,7 @@ static struct played play(const struct tape *tape, const uint8_t *descriptor, in
 }
 
 static int decoded, undescribed;
-static long contacts, tip_downs;
+static long contacts, contacts_short, contacts_split, tip_downs;
 static struct hash all;
 
 static void check_recording(int row, const struct tape *tape)
@@ -223,6 +233,8 @@ static void check_recording(int row, const struct tape *tape)
 	hash_u32(&all, (uint32_t)(first.hash.value >> 32));
 	hash_u32(&all, (uint32_t)first.hash.value);
 	contacts += first.contacts;
+	contacts_short += first.contacts_short;
+	contacts_split += first.contacts_split;
 	tip_downs += found.seen.tip_downs;
 	if (getenv("VERBOSE"))
 		printf("%s: %ld reports, %ld samples, %ld tip switches, %ld contacts, p %d\n", file,
@@ -257,6 +269,7 @@ int main(void)
 	}
 	/* 20 of 96 stand without their descriptor in the tables. */
 	CHECK(decoded >= 76 && undescribed <= 20);
+	CHECK(contacts > 100 && contacts_short == 0 && contacts_split == 0);
 	if (getenv("VERBOSE"))
 		printf("%d decoded, %d undescribed, %ld tip switches, %ld contacts, hash %016llx\n",
 		       decoded, undescribed, tip_downs, contacts, (unsigned long long)all.value);
