@@ -16,8 +16,10 @@
  * soon, silence after rest is rest, and ends it late.
  *   - A position with both axes outside of their ranges means "near, but I do not know where"
  *     (Windows pen contract): the last position holds, and the clock of silence goes on.
- *   - A worn nib presses all the time, a flickering switch does not press: contact begins when both
- *     the switch and 5 % of the pressure agree. The percentages are libinput's.
+ *   - A worn nib presses all the time (pen_nib.c), a flickering switch does not press: contact
+ *     begins when both the switch and 5 % of the pressure agree. The percentages are libinput's.
+ *   - Nibs bounce, and contacts break off for a moment: what is too short to be meant is taken out
+ *     after this machine (pen_settle.h).
  *   - The first contact reads too hard (the nib hits): pressure may rise by a third of its range a
  *     report, so a stroke begins thin.
  */
@@ -128,29 +130,30 @@ static bool position_null(const struct pen_layout *layout, const struct pen_fiel
 	return x_outside && y_outside;
 }
 
+/* What the tip's pressure is, of a range. */
+struct pressed {
+	int value, range; /* range 0: the pen has no pressure */
+};
+
 static enum pen_state state_next(const struct pen_device *d, const struct pen_layout *layout,
-				 const struct pen_fields *f)
+				 const struct pen_fields *f, const struct pressed *pressed)
 {
 	if (layout->in_range.size && !f->in_range)
 		return PEN_AWAY;
 	bool on = f->tip || f->eraser || !layout->tip.size;
 	if (!layout->pressure.size)
 		return on && layout->tip.size ? PEN_TOUCH : PEN_HOVER;
-	int64_t range = (int64_t)layout->pressure.maximum - layout->pressure.minimum;
-	int64_t pressed = (int64_t)f->pressure - layout->pressure.minimum;
-	bool hard = d->heard.state == PEN_TOUCH ? 100 * pressed >= range : 20 * pressed >= range;
+	int64_t share = d->heard.state == PEN_TOUCH ? 100 : 20;
+	bool hard = share * pressed->value >= pressed->range;
 	return on && hard ? PEN_TOUCH : PEN_HOVER;
 }
 
-static float pressure_next(struct pen_device *d, const struct pen_layout *layout,
-			   const struct pen_fields *f)
+static float pressure_next(struct pen_device *d, const struct pressed *pressed)
 {
-	const struct pen_field *field = &layout->pressure;
 	d->contact_reports = int_min(d->contact_reports + 1, PRESSURE_RAMP_REPORTS);
-	if (!field->size)
+	if (!pressed->range)
 		return PRESSURE_UNKNOWN;
-	float range = (float)((int64_t)field->maximum - field->minimum);
-	float pressure = (float)((int64_t)f->pressure - field->minimum) / range;
+	float pressure = (float)pressed->value / (float)pressed->range;
 	float most = (float)d->contact_reports / (float)PRESSURE_RAMP_REPORTS;
 	return float_clamp(pressure, 0.0f, most);
 }
@@ -191,7 +194,10 @@ static void pen_report(struct pen *pen, const struct raw_report *report, struct 
 		return;
 	silence_check(pen, report->device, report->time_us, input);
 	pen_settle_time(pen, report->device, report->time_us, input);
-	enum pen_state state = state_next(d, layout, &f);
+	struct pressed pressed = {0};
+	if (layout->pressure.size && (f.in_range || !layout->in_range.size))
+		pressed.value = pen_nib(d, layout, &f, d->heard.state == PEN_AWAY, &pressed.range);
+	enum pen_state state = state_next(d, layout, &f, &pressed);
 	bool null = position_null(layout, &f);
 	if (state == PEN_AWAY || (null && !d->placed)) {
 		sample_away(pen, report->device, report->time_us, input);
@@ -209,7 +215,7 @@ static void pen_report(struct pen *pen, const struct raw_report *report, struct 
 	if (d->heard.state != PEN_TOUCH && d->doubt != PEN_LIFTED)
 		d->contact_reports = 0;
 	sample.state = state;
-	sample.pressure = state == PEN_TOUCH ? pressure_next(d, layout, &f) : 0.0f;
+	sample.pressure = state == PEN_TOUCH ? pressure_next(d, &pressed) : 0.0f;
 	sample.tilt_rad = (struct v2){tilt(layout, &layout->tilt_x, f.tilt_x),
 				      tilt(layout, &layout->tilt_y, f.tilt_y)};
 	sample.eraser = f.invert || f.eraser;

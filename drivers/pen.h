@@ -58,6 +58,13 @@ enum pen_doubt {
 	PEN_LIFTED, /* lifted under pressure: or is it a flicker? */
 };
 
+/* One end of a pen: what it shows when nobody presses it. */
+struct pen_nib {
+	int offset;     /* logical units above the minimum; over 0: worn, replace it */
+	int least;      /* the least seen */
+	int approaches; /* in a row, with pressure from the start */
+};
+
 struct pen_device {
 	enum device_kind kind;
 	int layout_count;
@@ -69,10 +76,11 @@ struct pen_device {
 
 	/* contact: the last sample as the report had it, and what ends it */
 	struct pen_sample heard;
-	int64_t last_us;     /* of the last report with a position */
-	int64_t silence_us;  /* so long after motion, and the pen is gone */
-	bool desktop;        /* our own mouse: nothing to filter, and silence is rest */
-	int contact_reports; /* since the tip went down */
+	int64_t last_us;       /* of the last report with a position */
+	int64_t silence_us;    /* so long after motion, and the pen is gone */
+	bool desktop;          /* our own mouse: nothing to filter, and silence is rest */
+	int contact_reports;   /* since the tip went down */
+	struct pen_nib nib[2]; /* tip, eraser */
 
 	/* filter */
 	struct v2 raw_mm, filtered_mm, speed_mm_s;

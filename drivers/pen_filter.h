@@ -1,5 +1,5 @@
-/* Pen positions: logical units to millimetres, jumps held back, jitter taken out, pixels. Private
- * to the pen module. */
+/* Pen positions: logical units to millimetres, jumps held back, jitter taken out, pixels; and a
+ * nib's pressure. Private to the pen module. */
 #ifndef PEN_FILTER_H
 #define PEN_FILTER_H
 
@@ -26,5 +26,10 @@ void pen_filter_reset(struct pen_device *device, struct v2 mm);
 /* The 1-euro filter (Casiez, Roussel and Vogel, CHI 2012), in mm. While the pen moves, the result
  * is at most one report behind. */
 struct v2 pen_filter(struct pen_device *device, struct v2 mm, int64_t dt_us);
+
+/* Pressure in logical units above what a worn nib always shows (pen_nib.c), and what is left of the
+ * range. `entering`: the pen was away until this report. */
+int pen_nib(struct pen_device *device, const struct pen_layout *layout,
+	    const struct pen_fields *fields, bool entering, int *range);
 
 #endif
