@@ -41,19 +41,27 @@ const char board_text[] =
 	"# Take only the tablet with these USB ids, like 256c:006d; any: the first pen found.\n"
 	"tablet = any\n"
 	"# Width and height of the tablet's active area in mm; auto: what the tablet says.\n"
-	"tablet_mm = auto\n";
+	"tablet_mm = auto\n"
+	"# How the tablet lies, degrees clockwise: 0, 90, 180 (for a left hand) or 270.\n"
+	"tablet_rotation = 0\n"
+	"# yes: the tablet is the display. Its pen then follows the picture's rotation.\n"
+	"pen_display = no\n"
+	"# Crosses that were touched on a pen display, 4 to 25: for each of them where the pen "
+	"was\n"
+	"# seen and where the cross stands, x y x y in pixels of the display; none: as built.\n"
+	"calibration = none\n";
 
 struct reader {
 	struct board *board;
 	int line;
-	char key[32], value[128];
+	char key[32], value[1024];
 	unsigned seen; /* a bit a key */
 	char *fault;
 };
 
 static bool fault(struct reader *r, const char *remedy)
 {
-	snprintf(r->fault, 200, "line %d: %s = %.60s; %s", r->line, r->key, r->value, remedy);
+	snprintf(r->fault, 200, "line %d: %s = %.60s; %.90s", r->line, r->key, r->value, remedy);
 	return false;
 }
 
@@ -111,12 +119,12 @@ static bool value_int(struct reader *r, int least, int most, int *value)
 	return true;
 }
 
-static bool value_rotation(struct reader *r)
+static bool value_rotation(struct reader *r, int *degrees)
 {
 	static const char *words[] = {"0", "90", "180", "270"};
 	for (int i = 0; i < COUNT_OF(words); i++)
 		if (!strcmp(r->value, words[i])) {
-			r->board->rotation = 90 * i;
+			*degrees = 90 * i;
 			return true;
 		}
 	return fault(r, "give 0, 90, 180 or 270");
@@ -193,6 +201,36 @@ static bool value_tablet(struct reader *r)
 	return true;
 }
 
+/* Pixels with two digits behind the point. */
+static bool hundredths_cut(const char **at, int *hundredths)
+{
+	float number;
+	if (!number_cut(at, &number) || number > 16384.0f)
+		return false;
+	*hundredths = (int)(100.0f * number + 0.5f);
+	return true;
+}
+
+static bool value_calibration(struct reader *r)
+{
+	struct pen_mount *mount = &r->board->mount;
+	struct plane_map map;
+	char wrong[200];
+	const char *at = strcmp(r->value, "none") ? r->value : "";
+	mount->cross_count = 0;
+	while (*at) {
+		struct pen_cross cross;
+		if (mount->cross_count == PLANE_MAP_POINTS_MAX ||
+		    !hundredths_cut(&at, &cross.seen_x) || !hundredths_cut(&at, &cross.seen_y) ||
+		    !hundredths_cut(&at, &cross.meant_x) || !hundredths_cut(&at, &cross.meant_y))
+			return fault(r, "give four numbers for each of 4 to 25 crosses, or none");
+		mount->cross[mount->cross_count++] = cross;
+	}
+	return pen_mount_calibrate(mount, &map, &r->board->calibration_rms_px,
+				   &r->board->calibration_worst_px, wrong) ||
+	       fault(r, wrong);
+}
+
 /* --- lines ------------------------------------------------------------------------------------ */
 
 enum key {
@@ -209,12 +247,16 @@ enum key {
 	KEY_LANGUAGE,
 	KEY_TABLET,
 	KEY_TABLET_MM,
+	KEY_TABLET_ROTATION,
+	KEY_PEN_DISPLAY,
+	KEY_CALIBRATION,
 	KEY_COUNT,
 };
 
 static const char *key_names[KEY_COUNT] = {
-	"display_mm", "rotation",    "wrap",   "pin",      "relax",  "active_low", "budget",
-	"threads",    "thread_cpus", "idle_s", "language", "tablet", "tablet_mm",
+	"display_mm", "rotation",        "wrap",        "pin",         "relax",    "active_low",
+	"budget",     "threads",         "thread_cpus", "idle_s",      "language", "tablet",
+	"tablet_mm",  "tablet_rotation", "pen_display", "calibration",
 };
 
 static bool key_read(struct reader *r, enum key key)
@@ -224,7 +266,7 @@ static bool key_read(struct reader *r, enum key key)
 	case KEY_DISPLAY:
 		return value_size_mm(r, &board->display_width_mm, &board->display_height_mm);
 	case KEY_ROTATION:
-		return value_rotation(r);
+		return value_rotation(r, &board->rotation);
 	case KEY_WRAP:
 		return value_line(r, BUTTON_WRAP);
 	case KEY_PIN:
@@ -247,6 +289,12 @@ static bool key_read(struct reader *r, enum key key)
 		return value_tablet(r);
 	case KEY_TABLET_MM:
 		return value_size_mm(r, &board->tablet_width_mm, &board->tablet_height_mm);
+	case KEY_TABLET_ROTATION:
+		return value_rotation(r, &board->mount.degrees);
+	case KEY_PEN_DISPLAY:
+		return value_yes(r, &board->mount.display);
+	case KEY_CALIBRATION:
+		return value_calibration(r);
 	case KEY_COUNT:
 		break;
 	}

@@ -8,6 +8,7 @@
 #define BOARD_H
 
 #include "input.h"
+#include "pen_mount.h"
 
 enum { BOARD_NAME_MAX = 64, BOARD_TEXT_MAX = 64 << 10, BOARD_THREADS_MAX = 8 };
 
@@ -26,6 +27,9 @@ struct board {
 	enum board_language language;
 	int tablet_vendor, tablet_product;       /* take this tablet only; 0, 0: any */
 	float tablet_width_mm, tablet_height_mm; /* 0: what the tablet itself says */
+	struct pen_mount
+		mount; /* how it lies; the panel's size and turn are the display's to say */
+	float calibration_rms_px, calibration_worst_px; /* what the crosses' map leaves */
 };
 
 extern const struct board board_default;

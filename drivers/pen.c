@@ -42,10 +42,20 @@ enum {
 void pen_init(struct pen *pen, int width_px, int height_px)
 {
 	MUST(width_px > 0 && height_px > 0);
-	*pen = (struct pen){.mapping = {width_px, height_px},
+	*pen = (struct pen){.mapping = {.width_px = width_px, .height_px = height_px},
 			    .touching = -1,
 			    .contact_least_us = PEN_CONTACT_LEAST_US,
 			    .merge_us = PEN_MERGE_US};
+}
+
+void pen_mount(struct pen *pen, const struct pen_mount *mount)
+{
+	MUST(mount->degrees >= 0 && mount->degrees < 360 && mount->degrees % 90 == 0);
+	MUST(mount->rotation >= 0 && mount->rotation < 360 && mount->rotation % 90 == 0);
+	struct pen_mapping *mapping = &pen->mapping;
+	mapping->mount = *mount;
+	mapping->from_panel = pen_mount_map(mount, mapping->width_px, mapping->height_px, false);
+	mapping->from_display = pen_mount_map(mount, mapping->width_px, mapping->height_px, true);
 }
 
 static void device_reset(struct pen *pen, int device)

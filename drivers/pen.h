@@ -11,6 +11,7 @@
 #define PEN_H
 
 #include "input.h"
+#include "pen_mount.h"
 
 enum { PEN_DEVICES_MAX = 8, PEN_REPORTS_MAX = 6, DESCRIPTOR_BYTES_MAX = 4096 };
 
@@ -99,9 +100,12 @@ struct pen_device {
 };
 
 /* How tablet millimetres become screen pixels: one scale, so that a circle stays a circle. The
- * whole screen can be reached; what is over of the tablet's longer axis stays unused. */
+ * whole screen can be reached; what is over of the tablet's longer axis stays unused. The desktop's
+ * mouse and pen displays go by the panel and from there by a map to the picture. */
 struct pen_mapping {
 	int width_px, height_px;
+	struct pen_mount mount;
+	struct plane_map from_panel, from_display; /* display: with its calibration */
 };
 
 struct pen {
@@ -112,6 +116,9 @@ struct pen {
 };
 
 void pen_init(struct pen *pen, int width_px, int height_px);
+
+/* Every tablet lies so from now on; a calibration that can't be used is left out. */
+void pen_mount(struct pen *pen, const struct pen_mount *mount);
 
 /* Learns a device from its report descriptor. Any bytes are safe. */
 void pen_describe(struct pen *pen, int device, const uint8_t *descriptor, int size);

@@ -16,6 +16,16 @@
 #define JUMP_MM_S 3000.0f
 #define JUMP_LEAST_MM 10.0f
 
+/* What a device's positions lie on: the panel for a pen display and for the desktop's mouse, which
+ * is never askew; else the picture. */
+static struct v2 surface_px(const struct pen_mapping *mapping, const struct pen_device *device)
+{
+	const struct pen_mount *mount = &mapping->mount;
+	if (mount->panel_width > 0 && (mount->display || device->desktop))
+		return (struct v2){(float)mount->panel_width, (float)mount->panel_height};
+	return (struct v2){(float)mapping->width_px, (float)mapping->height_px};
+}
+
 static struct v2 tablet_size_mm(const struct pen *pen, const struct pen_device *device,
 				const struct pen_layout *layout)
 {
@@ -27,8 +37,9 @@ static struct v2 tablet_size_mm(const struct pen *pen, const struct pen_device *
 	float y_range = (float)((int64_t)layout->y.maximum - layout->y.minimum);
 	/* Equal ranges are no square tablet, they are normalised: take the screen's aspect. */
 	if (x_range == y_range) {
-		x_range = (float)pen->mapping.width_px;
-		y_range = (float)pen->mapping.height_px;
+		struct v2 surface = surface_px(&pen->mapping, device);
+		x_range = surface.x;
+		y_range = surface.y;
 	}
 	return (struct v2){WIDTH_GUESSED_MM, WIDTH_GUESSED_MM * y_range / x_range};
 }
@@ -48,16 +59,45 @@ struct v2 pen_place_mm(const struct pen *pen, const struct pen_device *device,
 			   axis_fraction(&layout->y, fields->y) * size_mm.y};
 }
 
+static struct v2 on_screen(struct v2 px, struct v2 size_px)
+{
+	return (struct v2){float_clamp(px.x, 0.0f, size_px.x - 1.0f),
+			   float_clamp(px.y, 0.0f, size_px.y - 1.0f)};
+}
+
+/* Clockwise by quarter turns, y down. */
+static struct v2 turned(struct v2 a, int degrees)
+{
+	switch (degrees) {
+	case 90:
+		return (struct v2){-a.y, a.x};
+	case 180:
+		return (struct v2){-a.x, -a.y};
+	case 270:
+		return (struct v2){a.y, -a.x};
+	default:
+		return a;
+	}
+}
+
 struct v2 pen_mm_to_px(const struct pen *pen, const struct pen_device *device,
 		       const struct pen_layout *layout, struct v2 mm)
 {
+	const struct pen_mapping *mapping = &pen->mapping;
 	struct v2 size_mm = tablet_size_mm(pen, device, layout);
-	struct v2 size_px = {(float)pen->mapping.width_px, (float)pen->mapping.height_px};
-	float scale = float_max(size_px.x / size_mm.x, size_px.y / size_mm.y);
-	struct v2 from_centre = v2_sub(mm, v2_scale(size_mm, 0.5f));
-	struct v2 px = v2_add(v2_scale(from_centre, scale), v2_scale(size_px, 0.5f));
-	return (struct v2){float_clamp(px.x, 0.0f, size_px.x - 1.0f),
-			   float_clamp(px.y, 0.0f, size_px.y - 1.0f)};
+	struct v2 size_px = {(float)mapping->width_px, (float)mapping->height_px};
+	struct v2 surface = surface_px(mapping, device);
+	int degrees = device->desktop ? 0 : mapping->mount.degrees;
+	struct v2 from_centre = turned(v2_sub(mm, v2_scale(size_mm, 0.5f)), degrees);
+	if (degrees % 180)
+		size_mm = (struct v2){size_mm.y, size_mm.x};
+	float scale = float_max(surface.x / size_mm.x, surface.y / size_mm.y);
+	struct v2 px = v2_add(v2_scale(from_centre, scale), v2_scale(surface, 0.5f));
+	if (device->desktop && mapping->mount.panel_width > 0)
+		px = plane_map_apply(&mapping->from_panel, px);
+	else if (!device->desktop && mapping->mount.display)
+		px = plane_map_apply(&mapping->from_display, px);
+	return on_screen(px, size_px);
 }
 
 static float seconds(int64_t dt_us)

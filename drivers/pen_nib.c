@@ -25,9 +25,9 @@ int pen_nib(struct pen_device *device, const struct pen_layout *layout,
 	nib->least = int_min(nib->least, pressed);
 	if (nib->least == 0 || nib->least > *range / 2)
 		nib->approaches = 0;
-	if (nib->approaches == 0 || nib->least < nib->offset)
+	if (nib->approaches == 0)
 		nib->offset = 0;
-	if (nib->approaches == NIB_APPROACHES)
+	else if (nib->approaches == NIB_APPROACHES)
 		nib->offset = nib->least;
 	*range -= nib->offset;
 	return pressed - nib->offset;

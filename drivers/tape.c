@@ -58,6 +58,16 @@ int tape_write_head(char *line, const struct tape *tape, int part)
 				tape->height_px);
 	if (tape->budget_units && part == index++)
 		return snprintf(line, TAPE_LINE_MAX, "# budget %ld\n", tape->budget_units);
+	const struct pen_mount *mount = &tape->mount;
+	if ((mount->degrees || mount->panel_width) && part == index++)
+		return snprintf(line, TAPE_LINE_MAX, "# mount %d %d %d %d %d\n", mount->degrees,
+				mount->display, mount->panel_width, mount->panel_height,
+				mount->rotation);
+	for (int i = 0; i < mount->cross_count; i++)
+		if (part == index++)
+			return snprintf(line, TAPE_LINE_MAX, "# cross %d %d %d %d\n",
+					mount->cross[i].seen_x, mount->cross[i].seen_y,
+					mount->cross[i].meant_x, mount->cross[i].meant_y);
 	if (tape->frame_count && part == index++)
 		return snprintf(line, TAPE_LINE_MAX, "# frames %d\n", tape->frame_count);
 	return 0;

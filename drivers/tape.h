@@ -5,6 +5,8 @@
  *   # budget 260000             work units a frame
  *   # frames 2700               the tape's length in frames of 1/60 s
  *   # tablet 0 203.2 127.0    size in mm of device 0, where its descriptor does not tell it
+ *   # mount 180 1 1920 1080 90   how the tablets lie: turn, pen display, panel, the picture's turn
+ *   # cross 9612 5390 9600 5400   a cross of the display's calibration (pen_mount.h)
  *   D: 0
  *   R: 234 05 0d 09 02 ...      report descriptor
  *   N: name   P: phys   I: bus vid pid
@@ -17,6 +19,7 @@
 #define TAPE_H
 
 #include "input.h"
+#include "pen_mount.h"
 
 enum { TAPE_DEVICES_MAX = 8, TAPE_DESCRIPTOR_MAX = 4096 };
 
@@ -40,7 +43,8 @@ struct tape {
 	struct tape_device device[TAPE_DEVICES_MAX];
 	int width_px, height_px; /* 0: not stated */
 	long budget_units;       /* 0: not stated */
-	int frame_count;         /* stated, or one more than the last event's frame + 60 */
+	struct pen_mount mount;
+	int frame_count; /* stated, or one more than the last event's frame + 60 */
 	size_t event_count;
 	struct tape_event *event; /* in order of time */
 	uint8_t *bytes;

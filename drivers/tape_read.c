@@ -250,6 +250,48 @@ static bool comment_tablet(struct reader *r)
 	return true;
 }
 
+/* A whole turn's quarters. */
+static bool quarter(int64_t degrees)
+{
+	return degrees >= 0 && degrees < 360 && degrees % 90 == 0;
+}
+
+static bool comment_mount(struct reader *r)
+{
+	struct pen_mount *mount = &r->tape->mount;
+	int64_t degrees = read_number(r, 10, 3), display = read_number(r, 10, 1);
+	int64_t width = read_number(r, 10, 5), height = read_number(r, 10, 5);
+	int64_t rotation = read_number(r, 10, 3);
+	bool panel = (width == 0 && height == 0) ||
+		     (width > 0 && width <= 16384 && height > 0 && height <= 16384);
+	if (!quarter(degrees) || display < 0 || display > 1 || !panel || !quarter(rotation))
+		return fault(r, "it reads like # mount 180 1 1920 1080 90, the tablet's turn, pen "
+				"display or not, the panel's pixels, the picture's turn");
+	mount->degrees = (int)degrees;
+	mount->display = display;
+	mount->panel_width = (int)width;
+	mount->panel_height = (int)height;
+	mount->rotation = (int)rotation;
+	return true;
+}
+
+static bool comment_cross(struct reader *r)
+{
+	struct pen_mount *mount = &r->tape->mount;
+	int64_t number[4];
+	bool sound = mount->cross_count < PLANE_MAP_POINTS_MAX;
+	for (int i = 0; i < 4; i++) {
+		number[i] = read_number(r, 10, 7);
+		sound &= number[i] >= 0 && number[i] <= 1638400;
+	}
+	if (!sound)
+		return fault(r, "at most 25 crosses, like # cross 9612 5390 9600 5400, in "
+				"hundredths of a pixel");
+	mount->cross[mount->cross_count++] = (struct pen_cross){(int)number[0], (int)number[1],
+								(int)number[2], (int)number[3]};
+	return true;
+}
+
 static bool comment_unplug(struct reader *r)
 {
 	int64_t device = read_number(r, 10, 3);
@@ -288,6 +330,10 @@ static bool line_comment(struct reader *r)
 		if (frames < 1 || frames > TAPE_TIME_MAX_US / SECOND_US * FRAME_RATE_HZ)
 			return fault(r, "a tape has at least one frame and at most 24 hours");
 		tape->frame_count = (int)frames;
+	} else if (skip_text(r, "mount ")) {
+		return comment_mount(r);
+	} else if (skip_text(r, "cross ")) {
+		return comment_cross(r);
 	} else if (skip_text(r, "tablet ")) {
 		return comment_tablet(r);
 	} else if (skip_text(r, "unplug ")) {

@@ -180,7 +180,14 @@ static bool check_board(struct inspector *inspector, const char *path)
 	free(text);
 	if (!read)
 		return fail_of(path, wrong);
-	say_of(path, "a board, sound");
+	if (board.mount.cross_count)
+		say_of(path,
+		       "a board, sound; its calibration leaves %.2f px of %d crosses, %.2f px at "
+		       "most",
+		       (double)board.calibration_rms_px, board.mount.cross_count,
+		       (double)board.calibration_worst_px);
+	else
+		say_of(path, "a board, sound");
 	return true;
 }
 

@@ -83,6 +83,7 @@ static bool load_tape(struct replay *replay)
 
 static void learn_devices(struct replay *replay, struct pen *pen)
 {
+	pen_mount(pen, &replay->tape.mount);
 	for (int d = 0; d < TAPE_DEVICES_MAX; d++) {
 		const struct tape_device *device = &replay->tape.device[d];
 		if (!device->used)

@@ -47,6 +47,7 @@ struct station {
 	struct display *display;
 	struct draw *draw;
 	int generation; /* of the GL context that draw was made in */
+	int mounted;    /* generation that the pens were told of */
 	int width, height;
 	void *memory;
 	struct threads threads;
@@ -215,6 +216,22 @@ static void learn(struct station *station, int device)
 	pen_describe(&station->kiosk->pen, device, told.descriptor, told.descriptor_size);
 }
 
+/* Pens on a display, and the mouse on a window, follow the picture's turn; tablets lie as they are
+ * said to. */
+static void mount_pens(struct station *station)
+{
+	struct pen_mount mount = station->board.mount;
+	int degrees = station->board.rotation;
+	mount.rotation = degrees;
+	display_size(station->display, &mount.panel_width, &mount.panel_height);
+	if (mount.panel_width == 0) {
+		mount.panel_width = degrees % 180 ? station->height : station->width;
+		mount.panel_height = degrees % 180 ? station->width : station->height;
+	}
+	station->mounted = station->generation;
+	pen_mount(&station->kiosk->pen, &mount);
+}
+
 /* A visit begins: everything as at switching on, but for the devices. */
 static bool begin_visit(struct station *station)
 {
@@ -228,6 +245,7 @@ static bool begin_visit(struct station *station)
 	if (station->board.budget_units > 0)
 		kiosk->session.budget_units = station->board.budget_units;
 	kiosk_body_named(kiosk, store_name(name));
+	mount_pens(station);
 	for (int device = 0; station->live && device < LIVE_TABLETS_MAX; device++)
 		learn(station, device);
 	pen_describe(&kiosk->pen, LIVE_BUTTONS, buttons_descriptor, buttons_descriptor_size);
@@ -334,6 +352,8 @@ static bool show(struct station *station)
 	if (state == DISPLAY_DARK || kiosk->frame < station->redraw)
 		return true;
 	if (follow_context(station, fault)) {
+		if (station->mounted != station->generation)
+			mount_pens(station);
 		draw_frame(station->draw, &kiosk->ui, &kiosk->session);
 		display_present(station->display);
 	} else {

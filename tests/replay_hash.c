@@ -43,6 +43,7 @@ static bool play(struct kiosk *kiosk, void *memory, const char *path)
 	body_find_parts(&kiosk->session.body);
 	if (tape.budget_units > 0)
 		kiosk->session.budget_units = tape.budget_units;
+	pen_mount(&kiosk->pen, &tape.mount);
 	for (int d = 0; d < TAPE_DEVICES_MAX; d++)
 		if (tape.device[d].used)
 			pen_describe(&kiosk->pen, d, tape.device[d].descriptor,

@@ -21,7 +21,8 @@ static bool same(const struct board *a, const struct board *b)
 	       a->idle_s == b->idle_s && a->language == b->language &&
 	       a->tablet_vendor == b->tablet_vendor && a->tablet_product == b->tablet_product &&
 	       a->tablet_width_mm == b->tablet_width_mm &&
-	       a->tablet_height_mm == b->tablet_height_mm;
+	       a->tablet_height_mm == b->tablet_height_mm && a->mount.degrees == b->mount.degrees &&
+	       a->mount.display == b->mount.display && a->mount.cross_count == b->mount.cross_count;
 }
 
 static void check_defaults(void)
@@ -41,7 +42,10 @@ static void check_keys(void)
 		"display_mm = 344.2 194\r\n\trotation=270 # turned\nwrap = GPIO17\npin=none\n"
 		"relax = GPIO 27\nactive_low = no\nbudget = 250000\nidle_s = 0\n"
 		"threads = 4\nthread_cpus = 5 6 7\n"
-		"language = ja\ntablet = 256C:006d\ntablet_mm = 254 158.75",
+		"language = ja\ntablet = 256C:006d\ntablet_mm = 254 158.75\n"
+		"tablet_rotation = 180\npen_display = yes\n"
+		"calibration = 102.5 51 100 50 1797 52 1800 50 101 1049 100 1050 1799 1052.25 1800 "
+		"1050",
 		fault));
 	CHECK_NEAR(board.display_width_mm, 344.2, 1e-3);
 	CHECK_NEAR(board.display_height_mm, 194.0, 0.0);
@@ -53,6 +57,9 @@ static void check_keys(void)
 	CHECK(board.idle_s == 0 && board.language == BOARD_JAPANESE);
 	CHECK(board.tablet_vendor == 0x256c && board.tablet_product == 0x6d);
 	CHECK_NEAR(board.tablet_height_mm, 158.75, 1e-3);
+	CHECK(board.mount.degrees == 180 && board.mount.display && board.mount.cross_count == 4);
+	CHECK(board.mount.cross[0].seen_x == 10250 && board.mount.cross[3].seen_y == 105225);
+	CHECK(board.mount.cross[3].meant_y == 105000 && board.calibration_worst_px < 0.1f);
 }
 
 static void check_faults(void)
@@ -82,6 +89,10 @@ static void check_faults(void)
 		{"language = de", "line 1: language = de; give en or ja"},
 		{"tablet = 256c", "line 1: tablet = 256c; give vendor"},
 		{"tablet = 256c:006dx", "line 1: tablet"},
+		{"tablet_rotation = 45", "line 1: tablet_rotation = 45; give 0, 90"},
+		{"calibration = 1 1 1 1", "line 1: calibration = 1 1 1 1; 1 points: give 4"},
+		{"calibration = 1 1 1", "line 1: calibration = 1 1 1; give four numbers"},
+		{"calibration = 0 0 0 0 1 1 1 1 2 2 2 2 3 3 3 3", "line 1: calibration"},
 		{"pin = wrap", "line 1: wrap and pin have the same GPIO line"},
 		{"pin = a\001b", "line 1: a line reads like"},
 		{"pin = 1234567890123456789012345678901234567890123456789012345678901234567890",

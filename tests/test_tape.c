@@ -34,6 +34,13 @@ static void check_round_trip(void)
 	char fault[200];
 	out = (struct tape){
 		.width_px = 1920, .height_px = 1080, .budget_units = 260000, .frame_count = 120};
+	out.mount = (struct pen_mount){.degrees = 180,
+				       .display = true,
+				       .panel_width = 1080,
+				       .panel_height = 1920,
+				       .rotation = 270,
+				       .cross_count = 2,
+				       .cross = {{1, 2, 3, 4}, {96012, 0, 1638400, 54000}}};
 	out.device[0] = (struct tape_device){
 		true, "Pen of ours", 3, 0x256c, 0x6d, 203.2f, 127.0f, mouse_descriptor_size, {0}};
 	memcpy(out.device[0].descriptor, mouse_descriptor, (size_t)mouse_descriptor_size);
@@ -52,6 +59,7 @@ static void check_round_trip(void)
 	CHECK(tape_read(&in, text, (size_t)size, fault));
 	CHECK(in.width_px == 1920 && in.height_px == 1080 && in.budget_units == 260000);
 	CHECK(in.frame_count == 120 && in.event_count == 4);
+	CHECK(!memcmp(&in.mount, &out.mount, sizeof in.mount));
 	CHECK(!strcmp(in.device[0].name, "Pen of ours") && in.device[0].vendor == 0x256c);
 	CHECK_NEAR(in.device[0].width_mm, 203.2, 1e-4);
 	CHECK_NEAR(in.device[0].height_mm, 127.0, 1e-4);
