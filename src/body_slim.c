@@ -162,12 +162,17 @@ static void pose(const struct slim_body *slim, const struct body *full, float sh
 {
 	memcpy(turn, slim->turn, sizeof slim->turn);
 	for (int b = 0; b < full->bone_count; b++) {
-		const struct bone *bone = &full->bone[b], *before = b > 0 ? bone - 1 : bone;
-		turn[b].at_m = bone->a_m;
-		if (b == 0 || before->part != bone->part || bone->part == PART_TRUNK)
-			continue;
-		struct v3 way = turned(&turn[b - 1], v3_sub(bone->a_m, before->a_m), 1.0f - share);
-		turn[b].at_m = v3_add(turn[b - 1].at_m, way);
+		const struct bone *bone = &full->bone[b];
+		struct v3 moved = {0.0f, 0.0f, 0.0f};
+		if (b > 0 && bone[-1].part == bone->part) {
+			struct v3 way = v3_sub(bone->a_m, bone[-1].a_m);
+			moved = v3_sub(turn[b - 1].at_m, bone[-1].a_m);
+			if (turn[b - 1].angle_rad != 0.0f)
+				moved = v3_add(
+					moved,
+					v3_sub(turned(&turn[b - 1], way, 1.0f - share), way));
+		}
+		turn[b].at_m = v3_add(bone->a_m, moved);
 	}
 }
 
@@ -208,13 +213,16 @@ void body_slim_grow(struct slim_body *slim, const struct body *full, float share
 	pose(slim, full, share, slim->turn);
 	slim->share = share;
 	for (int v = 0; v < full->vertex_count; v++)
-		slim->body.position_m[v] =
-			with_bone(slim, full, v, place(&slim->way[v], full->position_m[v], share));
+		slim->body.position_m[v] = with_bone(
+			slim, full, v, place(&slim->way[v], full->position_m[v], share));
 	for (int b = 0; b < full->bone_count; b++) {
-		struct v3 way = v3_sub(full->bone[b].b_m, full->bone[b].a_m);
-		slim->body.bone[b].a_m = slim->turn[b].at_m;
-		slim->body.bone[b].b_m =
-			v3_add(slim->turn[b].at_m, turned(&slim->turn[b], way, 1.0f - share));
+		const struct bone *bone = &full->bone[b];
+		struct v3 a_m = slim->turn[b].at_m, way = v3_sub(bone->b_m, bone->a_m);
+		struct v3 end_m = v3_add(bone->b_m, v3_sub(a_m, bone->a_m));
+		if (slim->turn[b].angle_rad != 0.0f)
+			end_m = v3_add(a_m, turned(&slim->turn[b], way, 1.0f - share));
+		slim->body.bone[b].a_m = a_m;
+		slim->body.bone[b].b_m = end_m;
 	}
 	body_build_normals(&slim->body);
 	body_build_prisms(&slim->body);

@@ -32,6 +32,8 @@ bool wrap_move(struct wrap *wrap, struct cloth *cloth, const struct marks *marks
 	wrap->frames = 0;
 	wrap->scratch->from_drape = wrap->scratch->mended = false;
 	memset(&wrap->diagnoses, 0, sizeof wrap->diagnoses);
+	for (int part = 0; part < PART_COUNT; part++)
+		wrap->scratch->opening[part] = -1; /* arms stay in the sleeves that they are in */
 	for (int number = 0; number < MARK_NUMBERS; number++)
 		wrap->scratch->partner[number] = number;
 	wrap_diagnose_marks(wrap);

@@ -69,12 +69,9 @@ static struct flat_frame frame_of(const struct cloth_mark *mark, const struct bo
 		normal = v3_add(normal, on->normal[i]);
 	struct v2 way = v2_sub(mark->point_mm[mark->point_count - 1], mark->point_mm[0]);
 	struct v3 along = v3_normalize(v3_sub(on->point_m[on->point_count - 1], on->point_m[0]));
-	return (struct flat_frame){true,
-				   v2_scale(mark->point_mm[0], 0.001f),
-				   v2_normalize(way),
-				   on->point_m[0],
-				   along,
-				   v3_normalize(v3_cross(normal, along))};
+	return (struct flat_frame){
+		true,  v2_scale(mark->point_mm[0], 0.001f),  v2_normalize(way), on->point_m[0],
+		along, v3_normalize(v3_cross(normal, along))};
 }
 
 static void find_frames(const struct wrap *wrap, struct flat_frame frame[PIECES_MAX])
@@ -232,8 +229,7 @@ void wrap_find_sleeves(struct wrap *wrap)
 			continue;
 		s->opening[part] = find_opening(wrap, &arm, &middle_m);
 		if (s->opening[part] >= 0)
-			s->toward[part] =
-				sleeve_way(wrap, part, &arm, s->opening[part], middle_m);
+			s->toward[part] = sleeve_way(wrap, part, &arm, s->opening[part], middle_m);
 	}
 }
 
@@ -275,8 +271,7 @@ void wrap_carry_sleeves(struct wrap *wrap, float share)
 		if (!is_particle(cloth, v))
 			continue;
 		body_nearest(&slim->body, cloth->position_m[v], 0, &hit);
-		cloth->position_m[v] =
-			body_slim_carry(slim, wrap->scratch->full, hit.triangle,
-							cloth->position_m[v], share);
+		cloth->position_m[v] = body_slim_carry(slim, wrap->scratch->full, hit.triangle,
+						       cloth->position_m[v], share);
 	}
 }

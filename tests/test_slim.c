@@ -139,6 +139,41 @@ static void test_joined(void)
 	CHECK(inner > 50 && outer == 0);
 }
 
+/* An arm that points elsewhere is straight there, as long as it was, and takes along what lies on
+ * it; grown, it is the arm itself again. */
+static void test_turned(void)
+{
+	struct v3 toward[PART_COUNT] = {0}, out = {1.0f, 0.0f, 0.0f};
+	toward[PART_ARM_LEFT] = out;
+	CHECK(body_slim_make(&slim_body, &body, limb, 0, toward));
+	for (int b = 0; b < body.bone_count; b++) {
+		const struct bone *full = &body.bone[b], *bone = &slim->bone[b];
+		struct v3 way = v3_sub(bone->b_m, bone->a_m);
+		CHECK_NEAR(v3_length(way), v3_distance(full->a_m, full->b_m), 1e-5);
+		if (full->part == PART_ARM_LEFT)
+			CHECK(v3_dot(v3_normalize(way), out) > 0.9999f);
+		else
+			CHECK(v3_distance(bone->a_m, full->a_m) == 0.0f);
+	}
+	int carried = 0;
+	for (int t = 0; t < body.triangle_count; t++) {
+		const int *v = body.triangle[t].v;
+		struct beside at;
+		if (body.part[t] != PART_ARM_LEFT ||
+		    !body_beside(slim, PART_ARM_LEFT, slim->position_m[v[0]], &at) ||
+		    at.reach_m < 0.1f)
+			continue;
+		struct v3 to_m = body_slim_carry(&slim_body, &body, t, at.axis_m, 1.0f), near_m;
+		near_m = body_nearest_bone(&body, 1u << PART_ARM_LEFT, to_m);
+		CHECK(v3_distance(to_m, near_m) < 0.02f);
+		carried++;
+	}
+	CHECK(carried > 100);
+	body_slim_grow(&slim_body, &body, 1.0f);
+	for (int v = 0; v < body.vertex_count; v++)
+		CHECK(v3_distance(slim->position_m[v], body.position_m[v]) < 1e-5f);
+}
+
 /* A body without bones has nothing to draw in. */
 static void test_boneless(void)
 {
@@ -163,6 +198,7 @@ int main(void)
 	test_grown();
 	test_whole();
 	test_joined();
+	test_turned();
 	test_boneless();
 	free(memory);
 	return test_end();

@@ -1,0 +1,84 @@
+/* Sleeves cut in one with front and back: whatever the proportions in which a T-shirt is drawn, the
+ * arms end in its sleeves, or the wrap says which one does not. */
+#include "dress_private.h"
+#include "measure.h"
+#include "scene.h"
+#include "test.h"
+
+/* Plays the bundled T-shirt up to its WRAP, so much wider and longer. */
+static struct scene *shirt_of(float wide, float tall)
+{
+	static char line[JOURNAL_LINE_MAX];
+	struct scene *scene = scene_open();
+	char fault[160];
+	FILE *file = fopen("tests/journals/tshirt.kitsuke", "r");
+	MUST(file);
+	while (fgets(line, sizeof line, file)) {
+		struct edit *edit = &scene->edit;
+		if (journal_read(line, (int)strlen(line), edit, fault) != JOURNAL_EDIT)
+			continue;
+		if (edit->kind == EDIT_WRAP)
+			break;
+		for (int i = 0; edit->kind == EDIT_PIECE && i < edit->point_count; i++) {
+			edit->point[i].x *= wide;
+			edit->point[i].y *= tall;
+		}
+		CHECK(session_apply(&scene->session, edit));
+	}
+	fclose(file);
+	return scene;
+}
+
+static int count_diagnoses(const struct wrap *wrap, const char *kind)
+{
+	int count = 0;
+	for (int i = 0; i < wrap->diagnoses.count; i++)
+		count += strcmp(wrap->diagnoses.item[i].kind, kind) == 0;
+	return count;
+}
+
+static void test_proportions(float wide, float tall)
+{
+	struct scene *scene = shirt_of(wide, tall);
+	struct session *session = &scene->session;
+	struct measure_scratch *measurer = measure_init(&scene->arena);
+	struct measure measure;
+	CHECK(scene_wrap(scene));
+	measure_garment(&measure, &session->cloth, measurer);
+	printf("%.2f x %.2f: arms %d, edges through %d, facing in %d, strain p95 %.3f\n",
+	       (double)wide, (double)tall, measure.arms_in_sleeves, measure.edge_crossings_body,
+	       measure.inverted_triangles, (double)measure.strain_p95);
+	CHECK(measure.arms_in_sleeves == 2 && measure.head_through_collar);
+	CHECK(measure.edge_crossings_body == 0 && measure.vertices_inside == 0);
+	CHECK(measure.inverted_triangles < 10);
+	CHECK(count_diagnoses(&session->wrap, "limb-outside") == 0);
+	scene_close(scene);
+}
+
+/* A sleeve that lies elsewhere holds no arm, and the wrap says so. */
+static void test_outside(void)
+{
+	struct scene *scene = shirt_of(1.25f, 1.0f);
+	struct wrap *wrap = &scene->session.wrap;
+	struct cloth *cloth = &scene->session.cloth;
+	CHECK(scene_wrap(scene));
+	CHECK(wrap_in_sleeve(wrap, PART_ARM_LEFT) && wrap_in_sleeve(wrap, PART_ARM_RIGHT));
+	for (int v = 0; v < cloth->garment->vertex_count; v++)
+		if (cloth->position_m[v].x > 0.2f)
+			cloth->position_m[v].z += 0.5f;
+	CHECK(!wrap_in_sleeve(wrap, PART_ARM_LEFT) && wrap_in_sleeve(wrap, PART_ARM_RIGHT));
+	wrap->diagnoses.count = 0;
+	wrap_check(wrap);
+	CHECK(count_diagnoses(wrap, "limb-outside") == 1);
+	scene_close(scene);
+}
+
+int main(void)
+{
+	test_proportions(0.95f, 1.0f);
+	test_proportions(1.25f, 1.0f);
+	test_proportions(1.5f, 1.0f);
+	test_proportions(1.2f, 0.8f);
+	test_outside();
+	return test_end();
+}
