@@ -7,7 +7,12 @@
 
 #include "live.h"
 
-enum { BUTTONS_DEBOUNCE_US = 10000 };
+enum {
+	BUTTONS_DEBOUNCE_US = 10000,
+	BUTTONS_LOCK_US = 200000,     /* between two presses of one button: hammering is one */
+	BUTTONS_STUCK_US = 30000000,  /* nobody pins or relaxes for so long: it is jammed */
+	BUTTONS_SERVICE_US = 5000000, /* all three for so long: the operator */
+};
 
 /* --- levels to masks, pure -------------------------------------------------------------------- */
 
@@ -15,8 +20,11 @@ struct buttons_state {
 	int64_t debounce_us; /* 0: the kernel debounces */
 	uint8_t level;       /* pressed as the lines say now */
 	uint8_t held;        /* pressed as reported */
-	uint8_t ignored;     /* were pressed from the start: they wait for a release */
+	uint8_t ignored;     /* pressed from the start, or stuck: they wait for a release */
+	uint8_t stuck;
+	bool service; /* told already */
 	int64_t changed_us[BUTTON_COUNT];
+	int64_t pressed_us[BUTTON_COUNT]; /* as reported last */
 };
 
 /* Takes the levels found when the lines were opened: what is held then is no press. */
@@ -28,8 +36,15 @@ void buttons_level(struct buttons_state *state, enum button button, bool pressed
 /* True when the mask to report has changed by now; it is in state->held then. */
 bool buttons_settle(struct buttons_state *state, int64_t now_us);
 
-/* Is a change still waiting for its debounce time? */
+/* Is a change still waiting for its debounce time, or a press for the lock's end? */
 bool buttons_unsettled(const struct buttons_state *state);
+
+/* True once when all buttons have been held for BUTTONS_SERVICE_US. */
+bool buttons_chord(struct buttons_state *state, int64_t now_us);
+
+/* Events are numbered from 1 on: does this one leave some out? The kernel has then dropped them,
+ * and the line's level has the last word. */
+bool buttons_gap(uint32_t *last, uint32_t number);
 
 /* --- live ------------------------------------------------------------------------------------- */
 
@@ -51,7 +66,10 @@ int buttons_chips_find(const struct board *board, struct buttons_chip *chips, in
 struct buttons *buttons_open(const struct board *board, struct live *live, int64_t start_us);
 void buttons_close(struct buttons *buttons);
 
-/* One line for the service page: what is there, or what is missing and the remedy. */
+/* True once when the operator held all buttons. */
+bool buttons_service(struct buttons *buttons);
+
+/* One line for the service page: what is there, or what is missing or stuck and the remedy. */
 void buttons_text(struct buttons *buttons, char text[LIVE_TEXT_MAX]);
 
 #endif

@@ -2,10 +2,10 @@
  *
  * One line, one request: a line that is missing or taken leaves the others working. Edges are
  * logical, so a press is a rising edge with active-low lines too. A chip that went away answers
- * with ENODEV; its lines are looked for again every second. */
+ * with ENODEV; its lines are looked for again until they are there, within a second of its return.
+ */
 #include "buttons.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <gpiod.h>
 #include <poll.h>
@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-enum { CHIPS_MAX = 16, EVENTS_MAX = 32, RESCAN_MS = 1000, UNSETTLED_MS = 2 };
+enum { CHIPS_MAX = 16, EVENTS_MAX = 32, RESCAN_MS = 400, UNSETTLED_MS = 2 };
 
 struct buttons {
 	pthread_t thread;
@@ -27,66 +27,16 @@ struct buttons {
 
 	struct gpiod_line_request *request[BUTTON_COUNT]; /* NULL: not found */
 	unsigned offset[BUTTON_COUNT];
+	uint32_t number[BUTTON_COUNT]; /* of the last event */
 	struct gpiod_edge_event_buffer *events;
 	struct buttons_state state;
+	uint8_t stuck_told;
+	bool service; /* asked for; under the lock */
 	int64_t searched_us;
 	bool plugged;
 };
 
 static const char *button_names[BUTTON_COUNT] = {"wrap", "pin", "relax"};
-
-/* --- chips ------------------------------------------------------------------------------------ */
-
-static void chip_describe(struct gpiod_chip *chip, const struct board *board,
-			  struct buttons_chip *found)
-{
-	struct gpiod_chip_info *info = gpiod_chip_get_info(chip);
-	if (info) {
-		snprintf(found->name, sizeof found->name, "%s", gpiod_chip_info_get_name(info));
-		snprintf(found->label, sizeof found->label, "%s", gpiod_chip_info_get_label(info));
-		found->line_count = (int)gpiod_chip_info_get_num_lines(info);
-		gpiod_chip_info_free(info);
-	}
-	for (int i = 0; i < BUTTON_COUNT; i++)
-		found->offset[i] = board->button_line[i][0] ? gpiod_chip_get_line_offset_from_name(
-								      chip, board->button_line[i])
-							    : -1;
-}
-
-static int by_name(const void *a, const void *b)
-{
-	return strcmp(((const struct buttons_chip *)a)->path,
-		      ((const struct buttons_chip *)b)->path);
-}
-
-int buttons_chips_find(const struct board *board, struct buttons_chip *chips, int capacity,
-		       int *refused)
-{
-	int count = 0;
-	*refused = 0;
-	DIR *folder = opendir("/dev");
-	if (!folder)
-		return 0;
-	for (struct dirent *entry; count < capacity && (entry = readdir(folder));) {
-		struct buttons_chip *found = &chips[count];
-		if (strncmp(entry->d_name, "gpiochip", 8) || strlen(entry->d_name) > 40)
-			continue;
-		*found = (struct buttons_chip){0};
-		snprintf(found->path, sizeof found->path, "/dev/%.40s", entry->d_name);
-		if (!gpiod_is_gpiochip_device(found->path))
-			continue;
-		struct gpiod_chip *chip = gpiod_chip_open(found->path);
-		*refused += chip ? 0 : 1;
-		if (!chip)
-			continue;
-		chip_describe(chip, board, found);
-		gpiod_chip_close(chip);
-		count++;
-	}
-	closedir(folder);
-	qsort(chips, (size_t)count, sizeof *chips, by_name);
-	return count;
-}
 
 /* --- one line --------------------------------------------------------------------------------- */
 
@@ -124,6 +74,7 @@ static bool line_open(struct buttons *b, enum button button, const struct button
 	if (!chip)
 		return false;
 	b->offset[button] = (unsigned)found->offset[button];
+	b->number[button] = 0;
 	bool low = b->board.button_active_low;
 	b->request[button] = line_ask(chip, b->offset[button], low, BUTTONS_DEBOUNCE_US);
 	if (!b->request[button] && (errno == ENXIO || errno == ENOTSUP || errno == EINVAL)) {
@@ -271,9 +222,12 @@ static void line_read(struct buttons *b, enum button button)
 		line_lost(b, button);
 		return;
 	}
+	bool gap = false;
 	for (int i = 0; i < count; i++) {
 		struct gpiod_edge_event *event = gpiod_edge_event_buffer_get_event(
 			b->events, (unsigned long)i);
+		gap |= buttons_gap(&b->number[button],
+				   (uint32_t)gpiod_edge_event_get_line_seqno(event));
 		int64_t time_us = (int64_t)(gpiod_edge_event_get_timestamp_ns(event) / 1000);
 		buttons_level(&b->state, button,
 			      gpiod_edge_event_get_event_type(event) ==
@@ -286,11 +240,30 @@ static void line_read(struct buttons *b, enum button button)
 	/* The kernel drops the oldest edges of a full buffer: the level has the last word. */
 	enum gpiod_line_value value = gpiod_line_request_get_value(b->request[button],
 								   b->offset[button]);
-	if (count == EVENTS_MAX && value != GPIOD_LINE_VALUE_ERROR)
+	if (gap && value != GPIOD_LINE_VALUE_ERROR)
 		buttons_level(&b->state, button, value == GPIOD_LINE_VALUE_ACTIVE, live_clock_us());
 }
 
 /* --- the thread ------------------------------------------------------------------------------- */
+
+/* What only the operator needs to know. */
+static void tell_service(struct buttons *b, int64_t now_us)
+{
+	if (buttons_chord(&b->state, now_us)) {
+		pthread_mutex_lock(&b->lock);
+		b->service = true;
+		pthread_mutex_unlock(&b->lock);
+	}
+	if (b->state.stuck == b->stuck_told)
+		return;
+	b->stuck_told = b->state.stuck;
+	char text[LIVE_TEXT_MAX] = "";
+	for (int i = 0; i < BUTTON_COUNT; i++)
+		if (b->state.stuck >> i & 1)
+			words_add(text, button_names[i], b->board.button_line[i],
+				  "is held down for good: free it or look at its wiring");
+	text_set(b, text[0] ? text : "buttons: all lines found");
+}
 
 static bool wait_and_read(struct buttons *b)
 {
@@ -310,6 +283,7 @@ static bool wait_and_read(struct buttons *b)
 	int64_t now_us = live_clock_us();
 	if (b->plugged && buttons_settle(&b->state, now_us))
 		live_push(b->live, LIVE_BUTTONS, now_us - b->start_us, 1, &b->state.held);
+	tell_service(b, now_us);
 	return true;
 }
 
@@ -368,6 +342,15 @@ void buttons_close(struct buttons *buttons)
 	if (write(buttons->wake[1], "q", 1) == 1)
 		pthread_join(buttons->thread, NULL);
 	buttons_free(buttons);
+}
+
+bool buttons_service(struct buttons *buttons)
+{
+	pthread_mutex_lock(&buttons->lock);
+	bool asked = buttons->service;
+	buttons->service = false;
+	pthread_mutex_unlock(&buttons->lock);
+	return asked;
 }
 
 void buttons_text(struct buttons *buttons, char text[LIVE_TEXT_MAX])

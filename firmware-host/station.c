@@ -4,15 +4,10 @@
  * program's time falls behind the wall's and stays behind, so that nothing ever has to catch up. */
 #include "commands.h"
 
-#include "board.h"
-#include "buttons.h"
 #include "character.h"
-#include "display.h"
-#include "draw.h"
-#include "kiosk.h"
-#include "live.h"
 #include "options.h"
 #include "resident.h"
+#include "station.h"
 #include "store.h"
 #include "threads_board.h"
 
@@ -26,43 +21,13 @@
 #include <unistd.h>
 
 enum {
-	WINDOW_WIDTH = 1280,
-	WINDOW_HEIGHT = 720,
 	FRAME_US = 1000000 / FRAME_RATE_HZ,
 	LATE_US = 3 * FRAME_US / 2,
-	REDRAW_FRAMES = 2 * FRAME_RATE_HZ, /* between tries to make GL's objects anew */
-	DARK_WIDTH = 1920,                 /* of the picture while no screen says its size */
-	DARK_HEIGHT = 1080,
 };
 
 static const char usage[] =
 	"usage: kitsuke [--board FILE] [--body FILE|mannequin] [--journals FOLDER]\n"
 	"               [--bones] [--else-replay TAPE --out DIR]\n";
-
-struct station {
-	const char *board_path, *body, *journals, *tape, *out;
-	bool bones; /* drawn over the figure, for the operator */
-	struct board board;
-	enum display_kind kind;
-	struct display *display;
-	struct draw *draw;
-	int generation; /* of the GL context that draw was made in */
-	int mounted;    /* generation that the pens were told of */
-	int width, height;
-	void *memory;
-	struct threads threads;
-	struct kiosk *kiosk;
-	struct frame_reports *reports;
-	struct live *live;
-	struct buttons *buttons;
-	int64_t start_us; /* of frame 0, on CLOCK_MONOTONIC; moves on with every late frame */
-	int64_t opened_us;
-	int journal;    /* file, -1: none */
-	int touched;    /* last frame with input */
-	int redraw;     /* frame from which on drawing may be tried again */
-	char dark[200]; /* why there is no picture, as told last */
-	char fault[FAULT_BYTES];
-};
 
 static volatile sig_atomic_t stopped;
 
@@ -70,11 +35,6 @@ static void stop(int signal_number)
 {
 	(void)signal_number;
 	stopped = 1;
-}
-
-static void say(const char *line)
-{
-	fprintf(stderr, "kitsuke: %s\n", line);
 }
 
 /* ---- start ---- */
@@ -94,74 +54,6 @@ static bool read_board(struct station *station)
 	if (!read)
 		snprintf(station->fault, FAULT_BYTES, "%.250s: %s", station->board_path, wrong);
 	return read;
-}
-
-/* KMS when a display is free for us, else a window where there is a desktop session. A card that a
- * splash screen still holds is waited for. */
-static bool choose_display(struct station *station)
-{
-	char why_not[200];
-	bool taken;
-	station->kind = DISPLAY_KMS;
-	if (display_kms_free(&taken, why_not) || (taken && !display_session()))
-		return true;
-	station->kind = DISPLAY_WINDOW;
-	station->width = WINDOW_WIDTH;
-	station->height = WINDOW_HEIGHT;
-	if (display_session())
-		return true;
-	snprintf(station->fault, FAULT_BYTES,
-		 "no display (%s) and no desktop session; a recorded visit can be played: "
-		 "kitsuke replay TAPE --out DIR",
-		 why_not);
-	return false;
-}
-
-/* GL's objects anew from what the processor has, when there is a new context. */
-static bool follow_context(struct station *station, char fault[200])
-{
-	int generation = display_generation(station->display);
-	if (station->draw && generation == station->generation)
-		return true;
-	draw_close(station->draw);
-	station->generation = generation;
-	station->draw = draw_open(station->width, station->height, fault);
-	if (station->draw)
-		draw_bones(station->draw, station->bones);
-	return station->draw;
-}
-
-/* The picture keeps the size of the first screen: what is worn and drawn is at home in it, and
- * other screens show it as large as it fits. */
-static bool open_display(struct station *station)
-{
-	char fault[200];
-	int width = station->width, height = station->height, degrees = station->board.rotation;
-	station->display = display_open(station->kind, &width, &height, fault);
-	if (station->display) {
-		width = width ? width : DARK_WIDTH;
-		height = height ? height : DARK_HEIGHT;
-		station->width = degrees % 180 ? height : width;
-		station->height = degrees % 180 ? width : height;
-		display_turn(station->display, station->width, station->height, degrees);
-	}
-	if (station->display && display_ready(station->display) == DISPLAY_READY &&
-	    !follow_context(station, fault)) {
-		display_close(station->display);
-		station->display = NULL;
-	}
-	if (!station->display)
-		snprintf(station->fault, FAULT_BYTES, "%s", fault);
-	return station->display;
-}
-
-static void close_display(struct station *station)
-{
-	draw_close(station->draw);
-	if (station->display)
-		display_close(station->display);
-	station->draw = NULL;
-	station->display = NULL;
 }
 
 /* Journals go to the folder asked for, or to the user's state folder. Without a place to write the
@@ -216,22 +108,6 @@ static void learn(struct station *station, int device)
 	pen_describe(&station->kiosk->pen, device, told.descriptor, told.descriptor_size);
 }
 
-/* Pens on a display, and the mouse on a window, follow the picture's turn; tablets lie as they are
- * said to. */
-static void mount_pens(struct station *station)
-{
-	struct pen_mount mount = station->board.mount;
-	int degrees = station->board.rotation;
-	mount.rotation = degrees;
-	display_size(station->display, &mount.panel_width, &mount.panel_height);
-	if (mount.panel_width == 0) {
-		mount.panel_width = degrees % 180 ? station->height : station->width;
-		mount.panel_height = degrees % 180 ? station->width : station->height;
-	}
-	station->mounted = station->generation;
-	pen_mount(&station->kiosk->pen, &mount);
-}
-
 /* A visit begins: everything as at switching on, but for the devices. */
 static bool begin_visit(struct station *station)
 {
@@ -245,7 +121,7 @@ static bool begin_visit(struct station *station)
 	if (station->board.budget_units > 0)
 		kiosk->session.budget_units = station->board.budget_units;
 	kiosk_body_named(kiosk, store_name(name));
-	mount_pens(station);
+	station_mount_pens(station);
 	for (int device = 0; station->live && device < LIVE_TABLETS_MAX; device++)
 		learn(station, device);
 	pen_describe(&kiosk->pen, LIVE_BUTTONS, buttons_descriptor, buttons_descriptor_size);
@@ -271,7 +147,7 @@ static bool open_station(struct station *station)
 		return false;
 	}
 	if (!threads_start_board(&station->threads, &station->board, station->fault) ||
-	    !open_display(station) || !begin_visit(station))
+	    !station_open_display(station) || !begin_visit(station))
 		return false;
 	char text[LIVE_TEXT_MAX];
 	station->opened_us = live_clock_us();
@@ -280,14 +156,14 @@ static bool open_station(struct station *station)
 		station->buttons = buttons_open(&station->board, station->live, station->opened_us);
 	if (station->live) {
 		live_text(station->live, text);
-		say(text);
+		station_say(text);
 	}
 	if (station->buttons) {
 		buttons_text(station->buttons, text);
-		say(text);
+		station_say(text);
 	}
 	if (!resident_lock(station->fault))
-		say(station->fault);
+		station_say(station->fault);
 	return true;
 }
 
@@ -328,41 +204,6 @@ static unsigned collect(struct station *station)
 	return unplugged;
 }
 
-static void tell_dark(struct station *station)
-{
-	const char *reason = display_reason(station->display);
-	if (strcmp(station->dark, reason) == 0)
-		return;
-	snprintf(station->dark, sizeof station->dark, "%s", reason);
-	fprintf(stderr, "kitsuke: %s%s\n", reason[0] ? "no picture: " : "the picture is back",
-		reason);
-}
-
-/* Without a display the visit goes on unseen. False: the display has failed for good. */
-static bool show(struct station *station)
-{
-	struct kiosk *kiosk = station->kiosk;
-	char fault[200];
-	enum display_state state = display_ready(station->display);
-	tell_dark(station);
-	if (state == DISPLAY_GONE) {
-		snprintf(station->fault, FAULT_BYTES, "%s", display_reason(station->display));
-		return false;
-	}
-	if (state == DISPLAY_DARK || kiosk->frame < station->redraw)
-		return true;
-	if (follow_context(station, fault)) {
-		if (station->mounted != station->generation)
-			mount_pens(station);
-		draw_frame(station->draw, &kiosk->ui, &kiosk->session);
-		display_present(station->display);
-	} else {
-		say(fault);
-		station->redraw = kiosk->frame + REDRAW_FRAMES;
-	}
-	return true;
-}
-
 /* Sleeps until the frame's end by the wall's clock, or lets a late frame slow the program down. */
 static void pace(struct station *station)
 {
@@ -400,9 +241,11 @@ static bool run(struct station *station)
 		unsigned unplugged = collect(station);
 		kiosk_frame(station->kiosk, station->reports, unplugged);
 		write_journal(station, station->kiosk->journal, station->kiosk->journal_size);
-		if (!show(station))
+		if (!station_show(station))
 			return false;
 		pace(station);
+		if (station->buttons && buttons_service(station->buttons))
+			station_tell_service(station);
 		if (idle(station)) {
 			end_visit(station);
 			if (!begin_visit(station))
@@ -421,7 +264,7 @@ static void close_station(struct station *station)
 		buttons_close(station->buttons);
 	if (station->live)
 		live_close(station->live);
-	close_display(station);
+	station_close_display(station);
 	free(station->reports);
 	free(station->kiosk);
 	free(station->memory);
@@ -472,13 +315,13 @@ int command_station(int argc, char **argv)
 		return STATUS_USAGE;
 	}
 	if (!read_board(&station)) {
-		say(station.fault);
+		station_say(station.fault);
 		return STATUS_INPUT;
 	}
-	if (!choose_display(&station)) {
+	if (!station_choose_display(&station)) {
 		if (station.tape)
 			return replay_instead(&station);
-		say(station.fault);
+		station_say(station.fault);
 		return STATUS_MACHINE;
 	}
 	struct sigaction action = {.sa_handler = stop};
@@ -486,7 +329,7 @@ int command_station(int argc, char **argv)
 	sigaction(SIGTERM, &action, NULL);
 	bool fine = open_station(&station) && run(&station);
 	if (!fine)
-		say(station.fault);
+		station_say(station.fault);
 	close_station(&station);
 	return fine ? STATUS_DONE : STATUS_MACHINE;
 }

@@ -1,0 +1,57 @@
+/* The station's state; station.c runs it, station_show.c shows it. */
+#ifndef STATION_H
+#define STATION_H
+
+#include "board.h"
+#include "buttons.h"
+#include "display.h"
+#include "draw.h"
+#include "kiosk.h"
+#include "live.h"
+#include "store.h"
+#include "threads.h"
+
+struct station {
+	const char *board_path, *body, *journals, *tape, *out;
+	bool bones; /* drawn over the figure, for the operator */
+	struct board board;
+	enum display_kind kind;
+	struct display *display;
+	struct draw *draw;
+	int generation; /* of the GL context that draw was made in */
+	int mounted;    /* generation that the pens were told of */
+	int width, height;
+	void *memory;
+	struct threads threads;
+	struct kiosk *kiosk;
+	struct frame_reports *reports;
+	struct live *live;
+	struct buttons *buttons;
+	int64_t start_us; /* of frame 0, on CLOCK_MONOTONIC; moves on with every late frame */
+	int64_t opened_us;
+	int journal;    /* file, -1: none */
+	int touched;    /* last frame with input */
+	int redraw;     /* frame from which on drawing may be tried again */
+	char dark[200]; /* why there is no picture, as told last */
+	char fault[FAULT_BYTES];
+};
+
+/* A line to the log. */
+void station_say(const char *line);
+
+/* KMS or a window; false with station->fault when neither can be. */
+bool station_choose_display(struct station *station);
+bool station_open_display(struct station *station);
+void station_close_display(struct station *station);
+
+/* Tells the pens where the picture lies. */
+void station_mount_pens(struct station *station);
+
+/* Draws a frame and shows it; without a display the visit goes on unseen. False: the display has
+ * failed for good. */
+bool station_show(struct station *station);
+
+/* Tells the operator everything that the machine knows about itself. */
+void station_tell_service(struct station *station);
+
+#endif
