@@ -144,7 +144,8 @@ static void node_inspect(struct live_node *node)
 /* wchar_t to UTF-8's printable ASCII: the name is for messages and tapes only. */
 static void name_copy(char *name, size_t capacity, const wchar_t *maker, const wchar_t *product)
 {
-	const wchar_t *parts[] = {maker, L" ", product};
+	bool both = maker && *maker && product && *product;
+	const wchar_t *parts[] = {maker, both ? L" " : NULL, product};
 	size_t at = 0;
 	for (int i = 0; i < COUNT_OF(parts); i++)
 		for (const wchar_t *c = parts[i]; c && *c && at + 1 < capacity; c++)
