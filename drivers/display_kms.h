@@ -101,7 +101,8 @@ void kms_card_close(struct kms_card *card);
 /* --- modes and commits ------------------------------------------------------------------------ */
 
 /* Lights the first mode that the card accepts, first as a question (TEST_ONLY), then in earnest:
- * wanted size (0: none), the screen's own choice, usual sizes, the rest; none that was refused.
+ * wanted size (0: none) or the kernel's command line's, the screen's own choice, usual sizes, the
+ * rest; none that was refused.
  * 0 or the -errno of the last try. */
 int kms_mode_light(struct kms_card *card, int width, int height);
 

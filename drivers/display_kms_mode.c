@@ -124,13 +124,15 @@ static int mode_try(struct kms_card *card, const drmModeModeInfo *mode)
 	return result;
 }
 
-/* The lower the sooner: wanted size, the screen's own choice, sizes that every screen can show. */
+/* The lower the sooner: wanted size, or what the kernel's command line asks for (video=); the
+ * screen's own choice; sizes that every screen can show. */
 static int mode_rank(const drmModeModeInfo *mode, int width, int height)
 {
 	static const int usual[3][2] = {{1920, 1080}, {1280, 720}, {1024, 768}};
 	if (mode->flags & DRM_MODE_FLAG_INTERLACE)
 		return 9;
-	if (mode->hdisplay == width && mode->vdisplay == height)
+	if ((mode->hdisplay == width && mode->vdisplay == height) ||
+	    mode->type & DRM_MODE_TYPE_USERDEF)
 		return 0;
 	if (mode->type & DRM_MODE_TYPE_PREFERRED)
 		return 1;

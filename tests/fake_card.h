@@ -50,6 +50,7 @@ struct fake_card {
 	bool no_objects;   /* connectors and planes can't be asked for (ENOMEM) */
 	struct fake_connector connector[FAKE_CONNECTORS];
 	struct fake_fault fault;
+	int mode_asked;         /* this - 1 is the mode of the kernel's command line */
 	unsigned modes_refused; /* bit per mode: not even TEST_ONLY lets it pass */
 	unsigned modes_lied;    /* TEST_ONLY passes, the commit doesn't */
 	int events_lost;        /* flips whose event never comes; -1: all */

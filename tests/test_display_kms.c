@@ -273,6 +273,10 @@ static void modes_are_tried_until_one_is_taken(void)
 	CHECK(back_ms(&rig) <= PROMISE_MS && mode_seen() == 3);
 	end(&rig, "a wanted mode");
 	begin(&rig);
+	fake[0].mode_asked = 1 + 1;
+	CHECK(back_ms(&rig) <= PROMISE_MS && mode_seen() == 1);
+	end(&rig, "a mode on the kernel's command line");
+	begin(&rig);
 	fake[0].modes_refused = 15;
 	run_ms(&rig, 5000);
 	CHECK(rig.kms.state == KMS_MODESET && strstr(rig.kms.reason, "none of the screen's modes"));

@@ -88,6 +88,18 @@ static void pens_follow_the_picture(void)
 		}
 }
 
+/* The desktop's mouse is at home on the window, whatever is said of tablets. */
+static void the_mouse_follows_the_picture(void)
+{
+	struct pen_mount mount = {
+		.degrees = 180, .panel_width = 1920, .panel_height = 1200, .rotation = 90};
+	lie(1200, 1920, &mount);
+	pen.device[0].desktop = true;
+	struct v2 px = at_mm(10.0f, 20.0f); /* of 320 x 200 on the window: 60, 120 */
+	CHECK_NEAR(px.x, 120.0, 0.02);
+	CHECK_NEAR(px.y, 1920.0 - 60.0, 0.02);
+}
+
 /* ---- calibration ---- */
 
 /* A panel under thick glass, a little askew. */
@@ -207,6 +219,7 @@ int main(void)
 	circles_stay_circles();
 	turned_tablets();
 	pens_follow_the_picture();
+	the_mouse_follows_the_picture();
 	calibrations_repair();
 	nonsense_is_refused();
 	return test_end();
