@@ -31,6 +31,7 @@ struct tablet {
 	char place[96];
 	int layout_count;
 	struct pen_layout layout[PEN_REPORTS_MAX];
+	struct pen_memory memory;
 };
 
 struct live {
@@ -218,8 +219,8 @@ static void tablet_read(struct live *live, int device)
 			return;
 		}
 		int64_t time_us = live_clock_us() - live->start_us;
-		if (pen_report_read(tablet->layout, tablet->layout_count, bytes, (int)size, &fields,
-				    &cut_off))
+		if (pen_report_read(tablet->layout, tablet->layout_count, bytes, (int)size,
+				    &tablet->memory, &fields, &cut_off))
 			live_push(live, device, time_us, (int)size, bytes);
 	}
 }

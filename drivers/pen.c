@@ -65,6 +65,15 @@ static void device_reset(struct pen *pen, int device)
 		pen->touching = -1;
 }
 
+static void layouts_learnt(struct pen_device *d)
+{
+	d->kind = d->layout_count ? DEVICE_PEN : DEVICE_UNKNOWN;
+	bool tells_range = d->layout_count > 0;
+	for (int i = 0; i < d->layout_count; i++)
+		tells_range &= d->layout[i].in_range.size > 0 && !d->layout[i].leaves_silently;
+	d->silence_us = tells_range ? SILENCE_MOVING_US : SILENCE_MOVING_SHORT_US;
+}
+
 void pen_describe(struct pen *pen, int device, const uint8_t *descriptor, int size)
 {
 	MUST(device >= 0 && device < PEN_DEVICES_MAX);
@@ -76,15 +85,35 @@ void pen_describe(struct pen *pen, int device, const uint8_t *descriptor, int si
 		return;
 	}
 	d->layout_count = pen_descriptor_read(descriptor, size, d->layout, d->reason);
-	d->kind = d->layout_count ? DEVICE_PEN : DEVICE_UNKNOWN;
-	bool tells_range = d->layout_count > 0;
-	for (int i = 0; i < d->layout_count; i++)
-		tells_range &= d->layout[i].in_range.size > 0;
-	d->silence_us = tells_range ? SILENCE_MOVING_US : SILENCE_MOVING_SHORT_US;
+	layouts_learnt(d);
 	/* The desktop's mouse is our own: exact, it says when it leaves, and nothing while it
 	 * rests. */
 	d->desktop = size == mouse_descriptor_size &&
 		     !memcmp(descriptor, mouse_descriptor, (size_t)size);
+}
+
+/* A protocol's reports come first. What the descriptor says about other reports still holds: a
+ * tablet that falls back to its default mode is read on. */
+int pen_layouts_join(struct pen_layout layout[PEN_REPORTS_MAX], int count,
+		     const struct pen_vendor *vendor)
+{
+	if (vendor->family == PEN_BY_DESCRIPTOR)
+		return count;
+	MUST(pen_vendor_sound(vendor) && count >= 0 && count <= PEN_REPORTS_MAX);
+	count = int_min(count, PEN_REPORTS_MAX - 1);
+	memmove(layout + 1, layout, (size_t)count * sizeof *layout);
+	pen_vendor_layout(vendor, &layout[0]);
+	return count + 1;
+}
+
+void pen_vendor_set(struct pen *pen, int device, const struct pen_vendor *vendor)
+{
+	MUST(device >= 0 && device < PEN_DEVICES_MAX);
+	struct pen_device *d = &pen->device[device];
+	if (vendor->family == PEN_BY_DESCRIPTOR || d->kind == DEVICE_BUTTONS)
+		return;
+	d->layout_count = pen_layouts_join(d->layout, d->layout_count, vendor);
+	layouts_learnt(d);
 }
 
 void pen_resize(struct pen *pen, int device, float width_mm, float height_mm)
@@ -198,7 +227,7 @@ static void pen_report(struct pen *pen, const struct raw_report *report, struct 
 	struct pen_fields f;
 	bool cut_off;
 	const struct pen_layout *layout = pen_report_read(d->layout, d->layout_count, report->bytes,
-							  report->size, &f, &cut_off);
+							  report->size, &d->memory, &f, &cut_off);
 	d->dropped += cut_off ? 1 : 0;
 	if (!layout || (pen->touching >= 0 && pen->touching != report->device))
 		return;

@@ -1,7 +1,8 @@
 /* Pen tablets and buttons: raw HID reports become pen samples and button masks.
  *
  *   report descriptor --pen_describe--> layouts      (pen_descriptor.c)
- *   raw report        --pen_report_read--> fields    (pen_report.c)
+ *   maker's protocol  --pen_vendor_set--> a layout   (pen_vendor.h)
+ *   raw report        --pen_report_read--> fields    (pen_report.c, pen_vendor_*.c)
  *   fields            --pen_read--> pen sample       (pen.c: contact; pen_filter.c: filter,
  * mapping)
  *
@@ -12,6 +13,7 @@
 
 #include "input.h"
 #include "pen_mount.h"
+#include "pen_vendor.h"
 
 enum { PEN_DEVICES_MAX = 8, PEN_REPORTS_MAX = 6, DESCRIPTOR_BYTES_MAX = 4096 };
 
@@ -31,9 +33,12 @@ struct pen_field {
 
 /* One input report of a device that carries a pen. */
 struct pen_layout {
-	bool absolute_mouse; /* a tablet that calls itself a mouse: button 1 is the tip */
-	int report_id;       /* 0: the device has no ids */
-	int report_bits;     /* whole report, the id byte included */
+	struct pen_vendor
+		vendor;       /* a family's: its rule reads the report, bits below mean nothing */
+	bool leaves_silently; /* nothing may come when the pen leaves, In Range or not */
+	bool absolute_mouse;  /* a tablet that calls itself a mouse: button 1 is the tip */
+	int report_id;        /* 0: the device has no ids */
+	int report_bits;      /* whole report, the id byte included */
 	struct pen_field x, y, pressure, tilt_x, tilt_y, twist;
 	struct pen_field tip, in_range, invert, eraser, barrel, barrel_2, serial;
 	float width_mm, height_mm; /* 0: not stated, or stated unbelievably */
@@ -70,6 +75,7 @@ struct pen_device {
 	enum device_kind kind;
 	int layout_count;
 	struct pen_layout layout[PEN_REPORTS_MAX];
+	struct pen_memory memory;
 	char reason[160];          /* DEVICE_UNKNOWN: why, in words */
 	float width_mm, height_mm; /* as told by pen_resize; 0: what the layout says */
 	uint8_t buttons_held;      /* DEVICE_BUTTONS */
@@ -123,6 +129,14 @@ void pen_mount(struct pen *pen, const struct pen_mount *mount);
 /* Learns a device from its report descriptor. Any bytes are safe. */
 void pen_describe(struct pen *pen, int device, const uint8_t *descriptor, int size);
 
+/* The tablet speaks a protocol of its maker's, in place of or beside what its descriptor says; to
+ * be called after pen_describe. PEN_BY_DESCRIPTOR changes nothing. */
+void pen_vendor_set(struct pen *pen, int device, const struct pen_vendor *vendor);
+
+/* The layouts of a descriptor with those of a protocol before them; returns their number. */
+int pen_layouts_join(struct pen_layout layout[PEN_REPORTS_MAX], int count,
+		     const struct pen_vendor *vendor);
+
 /* The tablet's active area in mm, where the descriptor does not tell it or tells it wrong; 0, 0
  * goes back to the descriptor. */
 void pen_resize(struct pen *pen, int device, float width_mm, float height_mm);
@@ -136,10 +150,10 @@ int pen_descriptor_read(const uint8_t *descriptor, int size,
 bool pen_descriptor_sound(const uint8_t *descriptor, int size);
 
 /* The layout that this report has, and its fields; NULL when it is no pen's report or is cut off
- * (*cut_off). */
+ * (*cut_off). memory: the device's, of its reports so far. */
 const struct pen_layout *pen_report_read(const struct pen_layout *layout, int layout_count,
-					 const uint8_t *bytes, int size, struct pen_fields *fields,
-					 bool *cut_off);
+					 const uint8_t *bytes, int size, struct pen_memory *memory,
+					 struct pen_fields *fields, bool *cut_off);
 
 /* A device went away: a stroke in progress ends with a sample of its own. */
 void pen_unplugged(struct pen *pen, int device, struct frame_input *input);

@@ -22,32 +22,50 @@ static int value_or_zero(const struct pen_field *field, const uint8_t *bytes)
 	return field->size ? field_read(field, bytes) : 0;
 }
 
+static void described_read(const struct pen_layout *layout, const uint8_t *bytes,
+			   struct pen_fields *fields)
+{
+	*fields = (struct pen_fields){
+		.x = field_read(&layout->x, bytes),
+		.y = field_read(&layout->y, bytes),
+		.pressure = value_or_zero(&layout->pressure, bytes),
+		.tilt_x = value_or_zero(&layout->tilt_x, bytes),
+		.tilt_y = value_or_zero(&layout->tilt_y, bytes),
+		.twist = value_or_zero(&layout->twist, bytes),
+		.tip = value_or_zero(&layout->tip, bytes) != 0,
+		.in_range = value_or_zero(&layout->in_range, bytes) != 0,
+		.invert = value_or_zero(&layout->invert, bytes) != 0,
+		.eraser = value_or_zero(&layout->eraser, bytes) != 0,
+		.barrel = value_or_zero(&layout->barrel, bytes) != 0,
+		.barrel_2 = value_or_zero(&layout->barrel_2, bytes) != 0,
+	};
+}
+
 const struct pen_layout *pen_report_read(const struct pen_layout *layout, int layout_count,
-					 const uint8_t *bytes, int size, struct pen_fields *fields,
-					 bool *cut_off)
+					 const uint8_t *bytes, int size, struct pen_memory *memory,
+					 struct pen_fields *fields, bool *cut_off)
 {
 	*cut_off = false;
 	for (int i = 0; i < layout_count; i++, layout++) {
+		if (layout->vendor.family != PEN_BY_DESCRIPTOR) {
+			*fields = (struct pen_fields){0};
+			enum pen_decoded decoded = pen_family_rule(layout->vendor.family)
+							   ->read(bytes, size, &layout->vendor,
+								  memory, fields);
+			*cut_off = decoded == PEN_CUT_OFF;
+			if (decoded == PEN_DECODED)
+				return layout;
+			if (*cut_off)
+				return NULL;
+			continue;
+		}
 		if (size < 1 || (layout->report_id && layout->report_id != bytes[0]))
 			continue;
 		if (8 * size < layout->report_bits) {
 			*cut_off = true;
 			return NULL;
 		}
-		*fields = (struct pen_fields){
-			.x = field_read(&layout->x, bytes),
-			.y = field_read(&layout->y, bytes),
-			.pressure = value_or_zero(&layout->pressure, bytes),
-			.tilt_x = value_or_zero(&layout->tilt_x, bytes),
-			.tilt_y = value_or_zero(&layout->tilt_y, bytes),
-			.twist = value_or_zero(&layout->twist, bytes),
-			.tip = value_or_zero(&layout->tip, bytes) != 0,
-			.in_range = value_or_zero(&layout->in_range, bytes) != 0,
-			.invert = value_or_zero(&layout->invert, bytes) != 0,
-			.eraser = value_or_zero(&layout->eraser, bytes) != 0,
-			.barrel = value_or_zero(&layout->barrel, bytes) != 0,
-			.barrel_2 = value_or_zero(&layout->barrel_2, bytes) != 0,
-		};
+		described_read(layout, bytes, fields);
 		return layout;
 	}
 	return NULL;

@@ -39,16 +39,20 @@ void jitter_frame(struct jitter *jitter, const struct pen *pen, struct frame_rep
 	for (int r = 0; r < reports->count; r++) {
 		struct raw_report *report = &reports->report[r];
 		struct pen_fields fields;
+		struct pen_memory memory = {0};
 		bool cut_off;
 		if (report->device < 0 || report->device >= PEN_DEVICES_MAX)
 			continue;
 		const struct pen_device *device = &pen->device[report->device];
-		const struct pen_layout *layout =
-			device->kind != DEVICE_PEN
-				? NULL
-				: pen_report_read(device->layout, device->layout_count,
-						  report->bytes, report->size, &fields, &cut_off);
-		if (!layout)
+		const struct pen_layout *layout = device->kind != DEVICE_PEN
+							  ? NULL
+							  : pen_report_read(device->layout,
+									    device->layout_count,
+									    report->bytes,
+									    report->size, &memory,
+									    &fields, &cut_off);
+		/* a maker's protocol is only read, never written */
+		if (!layout || layout->vendor.family != PEN_BY_DESCRIPTOR)
 			continue;
 		move(jitter, &layout->x, layout->width_mm, fields.x, report->bytes);
 		move(jitter, &layout->y, layout->height_mm, fields.y, report->bytes);

@@ -69,6 +69,7 @@ static int own_states(const struct tape *tape, struct seen *states, int capacity
 {
 	struct pen_layout layout[PEN_REPORTS_MAX];
 	struct seen last = {0};
+	struct pen_memory memory = {0};
 	char reason[160];
 	int count = 0;
 	int layouts = pen_descriptor_read(tape->device[0].descriptor,
@@ -77,8 +78,8 @@ static int own_states(const struct tape *tape, struct seen *states, int capacity
 		const struct tape_event *event = &tape->event[i];
 		struct pen_fields f;
 		bool cut_off;
-		if (!pen_report_read(layout, layouts, tape->bytes + event->offset, event->size, &f,
-				     &cut_off))
+		if (!pen_report_read(layout, layouts, tape->bytes + event->offset, event->size,
+				     &memory, &f, &cut_off))
 			continue;
 		struct seen now = {f.x, f.y, f.pressure, f.in_range, f.tip, f.barrel};
 		if (!same(&now, &last) && count < capacity)
