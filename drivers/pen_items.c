@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 enum { TYPE_MAIN, TYPE_GLOBAL, TYPE_LOCAL, TYPE_LONG };
-enum { MAIN_INPUT = 0x8 };
+enum { MAIN_INPUT = 0x8, MAIN_OUTPUT = 0x9, MAIN_FEATURE = 0xb };
 
 struct item {
 	int type, tag, size;
@@ -207,10 +207,11 @@ static enum role application_role(uint32_t usage)
 	return ROLE_NONE;
 }
 
+enum { COLLECTION_APPLICATION = 1 };
+
 /* The innermost application counts, as it does for the kernel; what lies in it may say more. */
 static enum role collection_role(enum role outer, uint32_t type, uint32_t usage)
 {
-	enum { COLLECTION_APPLICATION = 1 };
 	if (type == COLLECTION_APPLICATION)
 		return application_role(usage);
 	if (outer == ROLE_OUTSIDE || outer == ROLE_TOUCH)
@@ -227,6 +228,8 @@ static bool collection_open(struct items *r, uint32_t type)
 	if (r->depth == COLLECTION_DEPTH_MAX)
 		return refuse(r, "collections more than 32 deep");
 	enum role outer = r->role[r->depth];
+	if (type == COLLECTION_APPLICATION)
+		r->application = pen_items_usage(r, 0);
 	r->role[++r->depth] = collection_role(outer, type, pen_items_usage(r, 0));
 	return true;
 }
@@ -241,16 +244,21 @@ static bool collection_close(struct items *r)
 
 /* --- walking ------------------------------------------------------------------------- */
 
-static bool input_item(struct items *r, uint32_t flags)
+static bool report_grow(struct items *r, uint32_t bits_of[256])
 {
 	const struct globals *g = &r->global;
-	uint32_t *bits = &r->input_bits[g->report_id];
+	uint32_t *bits = &bits_of[g->report_id];
 	if (g->report_size * g->report_count > REPORT_BITS_MAX - *bits)
 		return refuse(r, "a report of more than 16 KiB");
-	r->input_flags = flags;
-	r->input_start = *bits + (r->ids_used ? 8 : 0);
 	*bits += g->report_size * g->report_count;
 	return true;
+}
+
+static bool input_item(struct items *r, uint32_t flags)
+{
+	r->input_flags = flags;
+	r->input_start = r->input_bits[r->global.report_id] + (r->ids_used ? 8 : 0);
+	return report_grow(r, r->input_bits);
 }
 
 static bool main_item(struct items *r, const struct item *item)
@@ -258,6 +266,10 @@ static bool main_item(struct items *r, const struct item *item)
 	switch (item->tag) {
 	case MAIN_INPUT:
 		return input_item(r, item->value);
+	case MAIN_OUTPUT:
+		return report_grow(r, r->output_bits);
+	case MAIN_FEATURE:
+		return report_grow(r, r->feature_bits);
 	case 0xa:
 		return collection_open(r, item->value);
 	case 0xc:

@@ -67,7 +67,9 @@ struct items {
 	int depth;
 	bool ids_used;
 	uint32_t input_bits[256]; /* by report id, without the id byte */
-	bool input_met;           /* the last call ended at an input item: */
+	uint32_t output_bits[256], feature_bits[256];
+	uint32_t application; /* usage of the innermost application collection */
+	bool input_met;       /* the last call ended at an input item: */
 	uint32_t input_flags;
 	uint32_t input_start; /* its first bit within the report, the id byte included */
 	char *reason;
