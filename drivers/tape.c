@@ -73,6 +73,21 @@ int tape_write_head(char *line, const struct tape *tape, int part)
 	return 0;
 }
 
+/* What not every device has; `part` counts only what this one has. */
+static int write_rare(char *line, int device, const struct tape_device *description, int part)
+{
+	const struct pen_vendor *vendor = &description->speaks;
+	int index = 0;
+	if (description->width_mm >= 1.0f && part == index++)
+		return snprintf(line, TAPE_LINE_MAX, "# tablet %d %.2f %.2f\n", device,
+				(double)description->width_mm, (double)description->height_mm);
+	if (vendor->family != PEN_BY_DESCRIPTOR && part == index++)
+		return snprintf(line, TAPE_LINE_MAX, "# vendor %d %s %d %d %d\n", device,
+				pen_family_rule(vendor->family)->word, vendor->x_maximum,
+				vendor->y_maximum, vendor->pressure_maximum);
+	return 0;
+}
+
 int tape_write_device(char *line, int device, const struct tape_device *description, int part)
 {
 	int length;
@@ -92,13 +107,8 @@ int tape_write_device(char *line, int device, const struct tape_device *descript
 				(unsigned)description->bus & 0xffff,
 				(unsigned)description->vendor & 0xffff,
 				(unsigned)description->product & 0xffff);
-	case 5:
-		if (description->width_mm >= 1.0f)
-			return snprintf(line, TAPE_LINE_MAX, "# tablet %d %.2f %.2f\n", device,
-					(double)description->width_mm,
-					(double)description->height_mm);
 	}
-	return 0;
+	return write_rare(line, device, description, part - 5);
 }
 
 int tape_write_select(char *line, int device)

@@ -7,6 +7,7 @@
  *   # tablet 0 203.2 127.0    size in mm of device 0, where its descriptor does not tell it
  *   # mount 180 1 1920 1080 90   how the tablets lie: turn, pen display, panel, the picture's turn
  *   # cross 9612 5390 9600 5400   a cross of the display's calibration (pen_mount.h)
+ *   # vendor 0 uclogic-2 50800 31750 8191   its maker's protocol, and its ranges of x, y, pressure
  *   D: 0
  *   R: 234 05 0d 09 02 ...      report descriptor
  *   N: name   P: phys   I: bus vid pid
@@ -20,6 +21,7 @@
 
 #include "input.h"
 #include "pen_mount.h"
+#include "pen_vendor.h"
 
 enum { TAPE_DEVICES_MAX = 8, TAPE_DESCRIPTOR_MAX = 4096 };
 
@@ -28,6 +30,7 @@ struct tape_device {
 	char name[128];
 	int bus, vendor, product;
 	float width_mm, height_mm; /* 0: not stated on the tape */
+	struct pen_vendor speaks;  /* its maker's protocol; PEN_BY_DESCRIPTOR: not stated */
 	int descriptor_size;
 	uint8_t descriptor[TAPE_DESCRIPTOR_MAX];
 };
@@ -68,8 +71,8 @@ unsigned tape_frame(const struct tape *tape, int frame, size_t *cursor,
  * length; `line` must hold TAPE_LINE_MAX bytes.
  *
  * tape_write_head: part 0, 1, ... until it returns 0 gives the comments on top; budget and frames
- * are left out when 0. tape_write_device: likewise the lines D, R, N, P, I of a device
- * and its size.
+ * are left out when 0. tape_write_device: likewise the lines D, R, N, P, I of a device,
+ * its size and its maker's protocol.
  * tape_write_select: the events that follow are this device's. */
 enum { TAPE_LINE_MAX = 3 * TAPE_DESCRIPTOR_MAX + 64 };
 int tape_write_head(char *line, const struct tape *tape, int part);

@@ -292,6 +292,27 @@ static bool comment_cross(struct reader *r)
 	return true;
 }
 
+/* A tape records one protocol for each device: the one that its reports from there on speak. */
+static bool comment_vendor(struct reader *r)
+{
+	int64_t device = read_number(r, 10, 3);
+	skip_blanks(r);
+	const char *word = r->c;
+	while (r->c < r->stop && *r->c != ' ' && *r->c != '\t')
+		r->c++;
+	struct pen_vendor speaks = {.family = pen_family_named(word, (size_t)(r->c - word))};
+	if (speaks.family == PEN_FAMILIES)
+		return fault(r, "a protocol that this program does not know; a newer one may");
+	speaks.x_maximum = (int)read_number(r, 10, 8);
+	speaks.y_maximum = (int)read_number(r, 10, 8);
+	speaks.pressure_maximum = (int)read_number(r, 10, 5);
+	if (device < 0 || device >= TAPE_DEVICES_MAX || !pen_vendor_sound(&speaks))
+		return fault(r, "it reads like # vendor 0 uclogic-2 50800 31750 8191, device, "
+				"protocol, ranges of x, y and pressure");
+	r->tape->device[device].speaks = speaks;
+	return true;
+}
+
 static bool comment_unplug(struct reader *r)
 {
 	int64_t device = read_number(r, 10, 3);
@@ -336,6 +357,8 @@ static bool line_comment(struct reader *r)
 		return comment_cross(r);
 	} else if (skip_text(r, "tablet ")) {
 		return comment_tablet(r);
+	} else if (skip_text(r, "vendor ")) {
+		return comment_vendor(r);
 	} else if (skip_text(r, "unplug ")) {
 		return comment_unplug(r);
 	}

@@ -9,7 +9,7 @@
 #include "options.h"
 #include "pen.h"
 #include "session.h"
-#include "tape.h"
+#include "tape_learn.h"
 
 #include <ctype.h>
 #include <stdarg.h>
@@ -195,7 +195,7 @@ static void say_device(const char *path, const struct tape *tape, int device, st
 {
 	static const char *const kind[] = {"unknown", "a pen", "buttons"};
 	const struct tape_device *described = &tape->device[device];
-	pen_describe(pen, device, described->descriptor, described->descriptor_size);
+	tape_learn(pen, device, described);
 	say_of(path, "device %d, %.60s: %s%s%s", device, described->name,
 	       kind[pen->device[device].kind], pen->device[device].reason[0] ? ": " : "",
 	       pen->device[device].reason);

@@ -9,7 +9,7 @@
 #include "picture.h"
 #include "report.h"
 #include "snapshot.h"
-#include "tape.h"
+#include "tape_learn.h"
 #include "threads.h"
 
 #include <stdio.h>
@@ -88,9 +88,7 @@ static void learn_devices(struct replay *replay, struct pen *pen)
 		const struct tape_device *device = &replay->tape.device[d];
 		if (!device->used)
 			continue;
-		pen_describe(pen, d, device->descriptor, device->descriptor_size);
-		if (device->width_mm > 0.0f)
-			pen_resize(pen, d, device->width_mm, device->height_mm);
+		tape_learn(pen, d, device);
 		if (pen->device[d].kind == DEVICE_UNKNOWN)
 			fprintf(stderr, "kitsuke replay: note: %s: device %d is not used: %s\n",
 				replay->tape_path, d, pen->device[d].reason);

@@ -9,6 +9,7 @@
 #include "resident.h"
 #include "station.h"
 #include "store.h"
+#include "tape_learn.h"
 #include "threads_board.h"
 
 #include <errno.h>
@@ -105,7 +106,7 @@ static void learn(struct station *station, int device)
 {
 	struct tape_device told;
 	live_device(station->live, device, &told);
-	pen_describe(&station->kiosk->pen, device, told.descriptor, told.descriptor_size);
+	tape_learn(&station->kiosk->pen, device, &told);
 }
 
 /* A visit begins: everything as at switching on, but for the devices. */

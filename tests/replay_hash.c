@@ -5,7 +5,7 @@
  *   replay_hash THREADS TAPE...
  */
 #include "kiosk.h"
-#include "tape.h"
+#include "tape_learn.h"
 #include "threads.h"
 
 #include <inttypes.h>
@@ -46,8 +46,7 @@ static bool play(struct kiosk *kiosk, void *memory, const char *path)
 	pen_mount(&kiosk->pen, &tape.mount);
 	for (int d = 0; d < TAPE_DEVICES_MAX; d++)
 		if (tape.device[d].used)
-			pen_describe(&kiosk->pen, d, tape.device[d].descriptor,
-				     tape.device[d].descriptor_size);
+			tape_learn(&kiosk->pen, d, &tape.device[d]);
 	for (int frame = 0; frame < tape.frame_count; frame++) {
 		struct frame_reports reports;
 		unsigned unplugged = tape_frame(&tape, frame, &cursor, &reports);

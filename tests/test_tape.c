@@ -41,11 +41,27 @@ static void check_round_trip(void)
 				       .rotation = 270,
 				       .cross_count = 2,
 				       .cross = {{1, 2, 3, 4}, {96012, 0, 1638400, 54000}}};
-	out.device[0] = (struct tape_device){
-		true, "Pen of ours", 3, 0x256c, 0x6d, 203.2f, 127.0f, mouse_descriptor_size, {0}};
+	out.device[0] = (struct tape_device){true,
+					     "Pen of ours",
+					     3,
+					     0x256c,
+					     0x6d,
+					     203.2f,
+					     127.0f,
+					     {PEN_UCLOGIC_2, 50800, 31750, 8191},
+					     mouse_descriptor_size,
+					     {0}};
 	memcpy(out.device[0].descriptor, mouse_descriptor, (size_t)mouse_descriptor_size);
-	out.device[1] = (struct tape_device){
-		true, "buttons", 0x19, 0, 1, 0.0f, 0.0f, buttons_descriptor_size, {0}};
+	out.device[1] = (struct tape_device){true,
+					     "buttons",
+					     0x19,
+					     0,
+					     1,
+					     0.0f,
+					     0.0f,
+					     {PEN_BY_DESCRIPTOR, 0, 0, 0},
+					     buttons_descriptor_size,
+					     {0}};
 	memcpy(out.device[1].descriptor, buttons_descriptor, (size_t)buttons_descriptor_size);
 	static const uint8_t report[] = {1, 0x20, 0xab}, press[] = {1};
 	int size = write_parts(text, &out);
@@ -63,6 +79,10 @@ static void check_round_trip(void)
 	CHECK(!strcmp(in.device[0].name, "Pen of ours") && in.device[0].vendor == 0x256c);
 	CHECK_NEAR(in.device[0].width_mm, 203.2, 1e-4);
 	CHECK_NEAR(in.device[0].height_mm, 127.0, 1e-4);
+	CHECK(in.device[0].speaks.family == PEN_UCLOGIC_2);
+	CHECK(in.device[0].speaks.x_maximum == 50800 && in.device[0].speaks.y_maximum == 31750);
+	CHECK(in.device[0].speaks.pressure_maximum == 8191);
+	CHECK(in.device[1].speaks.family == PEN_BY_DESCRIPTOR);
 	CHECK(in.device[1].bus == 0x19 && in.device[1].product == 1 && !in.device[2].used);
 	CHECK(in.device[1].descriptor_size == buttons_descriptor_size);
 	CHECK(!memcmp(in.device[1].descriptor, buttons_descriptor,
@@ -173,6 +193,14 @@ static void check_damage(void)
 		{"# kitsuke-tape 1\n# budget x\n", "line 2: a budget"},
 		{"# kitsuke-tape 1\n# unplug 0\n", "line 2: it reads like # unplug"},
 		{"# kitsuke-tape 1\n# tablet 0 200\n", "line 2: it reads like # tablet"},
+		{"# kitsuke-tape 1\n# vendor 0 uclogic-2 50800 31750\n",
+		 "line 2: it reads like # vendor"},
+		{"# kitsuke-tape 1\n# vendor 9 uclogic-2 50800 31750 8191\n",
+		 "line 2: it reads like # vendor"},
+		{"# kitsuke-tape 1\n# vendor 0 uclogic-2 50800 99999999 8191\n",
+		 "line 2: it reads like # vendor"},
+		{"# kitsuke-tape 1\n# vendor 0 telepathy 50800 31750 8191\n",
+		 "line 2: a protocol that this"},
 		{"001:002:000:STREAM 1.0\n 01\n\n001:003:000:STREAM 1.1\n 01\n",
 		 "line 4: a second device"},
 		{"009:STREAM 1.0\n 01\n", "line 1: an interface"},
