@@ -75,7 +75,7 @@ TOOLS := $(patsubst %.c,$(B)/%,$(wildcard tests/hand.c tests/measure_sections.c 
 ALL   := $(LIB) $(MAIN) $(call sources,tests)
 DATA  := $(wildcard tests/tapes/* tests/journals/*)
 
-PACKAGES := cairo pangocairo jansson hidapi-hidraw libusb-1.0 libgpiod libdrm gbm egl glesv2 sdl2 libpng libudev
+PACKAGES := cairo pangocairo jansson hidapi-hidraw libusb-1.0 libgpiod libdrm gbm egl glesv2 sdl2 libpng libudev libwacom
 # Asked once, and only when something is to be compiled.
 PACKAGE_CFLAGS = $(eval PACKAGE_CFLAGS := $(shell pkg-config --cflags $(PACKAGES)))$(PACKAGE_CFLAGS)
 PACKAGE_LIBS   = $(eval PACKAGE_LIBS := $(shell pkg-config --libs $(PACKAGES)))$(PACKAGE_LIBS)

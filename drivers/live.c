@@ -4,53 +4,16 @@
  * newest when nobody reads, so reading must not wait for a frame. udev tells of new nodes after its
  * rules have set their permissions; where there is no udev, and for a permission that is mended
  * later, the thread looks again every second. */
-#include "live.h"
+#include "live_private.h"
 
-#include <errno.h>
 #include <fcntl.h>
-#include <libudev.h>
 #include <poll.h>
-#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
 #include <unistd.h>
 
-enum {
-	QUEUE_MAX = 1024,   /* reports: 2 s of a 500 Hz tablet */
-	QUEUE_RESERVE = 16, /* kept free for plugging and unplugging */
-	RESCAN_MS = 1000,
-	SIZE_UNPLUGGED = 0,
-	SIZE_PLUGGED = -1,
-};
-
-struct tablet {
-	int fd; /* -1: free */
-	bool own;
-	char path[64];
-	char place[96];
-	int layout_count;
-	struct pen_layout layout[PEN_REPORTS_MAX];
-	struct pen_memory memory;
-};
-
-struct live {
-	pthread_t thread;
-	int wake[2]; /* a byte stops the thread */
-	int64_t start_us;
-	struct board board;
-	struct udev *udev;
-	struct udev_monitor *monitor;
-	struct live_node *nodes; /* the thread's */
-
-	pthread_mutex_t lock; /* for all below */
-	struct tablet tablet[LIVE_TABLETS_MAX];
-	struct tape_device told[PEN_DEVICES_MAX];
-	int first, count;
-	long lost;
-	char text[LIVE_TEXT_MAX];
-	struct raw_report queue[QUEUE_MAX];
-};
+enum { RESCAN_MS = 1000 };
 
 int64_t live_clock_us(void)
 {
@@ -85,19 +48,24 @@ void live_push(struct live *live, int device, int64_t time_us, int size, const u
 	pthread_mutex_unlock(&live->lock);
 }
 
+void live_queue(struct live *live, int device, int size, const uint8_t *bytes)
+{
+	queue_add(live, device, live_clock_us() - live->start_us, size, bytes);
+}
+
 void live_plug(struct live *live, int device, const struct tape_device *told)
 {
 	MUST(device >= 0 && device < PEN_DEVICES_MAX);
 	pthread_mutex_lock(&live->lock);
 	live->told[device] = *told;
-	queue_add(live, device, live_clock_us() - live->start_us, SIZE_PLUGGED, NULL);
+	live_queue(live, device, SIZE_PLUGGED, NULL);
 	pthread_mutex_unlock(&live->lock);
 }
 
 void live_unplug(struct live *live, int device)
 {
 	pthread_mutex_lock(&live->lock);
-	queue_add(live, device, live_clock_us() - live->start_us, SIZE_UNPLUGGED, NULL);
+	live_queue(live, device, SIZE_UNPLUGGED, NULL);
 	pthread_mutex_unlock(&live->lock);
 }
 
@@ -151,143 +119,6 @@ long live_lost(struct live *live)
 	return lost;
 }
 
-/* --- tablets ---------------------------------------------------------------------------------- */
-
-/* A tablet that comes back to its place gets its number back; else the first number that no
- * tablet has had, else any that is free. -1: all are in use. */
-static int tablet_number(const struct live *live, const char *place)
-{
-	int unused = -1, idle = -1;
-	for (int i = LIVE_TABLETS_MAX - 1; i >= 0; i--) {
-		const struct tablet *tablet = &live->tablet[i];
-		if (tablet->fd >= 0)
-			continue;
-		if (!strcmp(tablet->place, place))
-			return i;
-		idle = i;
-		unused = tablet->place[0] ? unused : i;
-	}
-	return unused >= 0 ? unused : idle;
-}
-
-static int tablet_add(struct live *live, int fd, bool own, const char *path, const char *place,
-		      const struct tape_device *told)
-{
-	char reason[160];
-	pthread_mutex_lock(&live->lock);
-	int device = tablet_number(live, place);
-	if (device >= 0) {
-		struct tablet *tablet = &live->tablet[device];
-		snprintf(tablet->path, sizeof tablet->path, "%s", path);
-		snprintf(tablet->place, sizeof tablet->place, "%s", place);
-		tablet->layout_count = pen_descriptor_read(told->descriptor, told->descriptor_size,
-							   tablet->layout, reason);
-		tablet->own = own;
-		tablet->fd = fd;
-	}
-	pthread_mutex_unlock(&live->lock);
-	if (device >= 0)
-		live_plug(live, device, told);
-	return device;
-}
-
-static void tablet_remove(struct live *live, int device)
-{
-	pthread_mutex_lock(&live->lock);
-	struct tablet *tablet = &live->tablet[device];
-	if (tablet->own)
-		close(tablet->fd);
-	tablet->fd = -1;
-	pthread_mutex_unlock(&live->lock);
-	live_unplug(live, device);
-}
-
-/* Takes what one tablet has ready. Only reports with a pen are kept: the same node may be a
- * keyboard too, and what is typed is nobody's business. */
-static void tablet_read(struct live *live, int device)
-{
-	struct tablet *tablet = &live->tablet[device];
-	for (int i = 0; i < 64; i++) {
-		uint8_t bytes[REPORT_BYTES_MAX];
-		struct pen_fields fields;
-		bool cut_off;
-		ssize_t size = read(tablet->fd, bytes, sizeof bytes);
-		if (size < 0 && (errno == EAGAIN || errno == EINTR))
-			return;
-		if (size <= 0) {
-			tablet_remove(live, device);
-			return;
-		}
-		int64_t time_us = live_clock_us() - live->start_us;
-		if (pen_report_read(tablet->layout, tablet->layout_count, bytes, (int)size,
-				    &tablet->memory, &fields, &cut_off))
-			live_push(live, device, time_us, (int)size, bytes);
-	}
-}
-
-int live_attach(struct live *live, int fd, const char *place, const struct tape_device *told)
-{
-	int flags = fcntl(fd, F_GETFL);
-	fcntl(fd, F_SETFL, flags | O_NONBLOCK);
-	int device = tablet_add(live, fd, false, place, place, told);
-	if (device >= 0 && write(live->wake[1], "a", 1) < 0)
-		return -1;
-	return device;
-}
-
-/* --- searching -------------------------------------------------------------------------------- */
-
-static bool node_wanted(const struct live *live, const struct live_node *node)
-{
-	const struct board *board = &live->board;
-	bool any = !board->tablet_vendor && !board->tablet_product;
-	return node->layout_count && (any || (node->told.vendor == board->tablet_vendor &&
-					      node->told.product == board->tablet_product));
-}
-
-static bool node_open(struct live *live, const struct live_node *node)
-{
-	bool found = false;
-	pthread_mutex_lock(&live->lock);
-	for (int i = 0; i < LIVE_TABLETS_MAX; i++)
-		found |= live->tablet[i].fd >= 0 && !strcmp(live->tablet[i].path, node->path);
-	pthread_mutex_unlock(&live->lock);
-	return found;
-}
-
-static void text_set(struct live *live, const char *name, const char *text)
-{
-	pthread_mutex_lock(&live->lock);
-	snprintf(live->text, sizeof live->text, "%.80s%s%.150s", name, *name ? ": " : "", text);
-	pthread_mutex_unlock(&live->lock);
-}
-
-static void tablets_search(struct live *live)
-{
-	int count = live_nodes_find(live->nodes, LIVE_NODES_MAX);
-	const struct live_node *told = NULL;
-	for (int i = 0; i < count; i++) {
-		struct live_node *node = &live->nodes[i];
-		if (!node_wanted(live, node))
-			continue;
-		told = told && told->readable ? told : node;
-		if (!node->readable || node_open(live, node))
-			continue;
-		int fd = open(node->path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-		node->told.width_mm = live->board.tablet_width_mm;
-		node->told.height_mm = live->board.tablet_height_mm;
-		if (fd >= 0 && tablet_add(live, fd, true, node->path, node->place, &node->told) < 0)
-			close(fd);
-	}
-	if (told)
-		text_set(live, told->told.name, told->text);
-	else
-		text_set(live, "",
-			 count ? "no pen tablet among the HID devices; `kitsuke devices` "
-				 "tells why"
-			       : "no HID device is attached");
-}
-
 /* --- the thread ------------------------------------------------------------------------------- */
 
 /* Waits for the tablets, for udev, for a wake-up, at most a second. False: to be stopped. */
@@ -312,7 +143,7 @@ static bool wait_and_read(struct live *live, bool *search)
 	}
 	for (int i = 0; i < LIVE_TABLETS_MAX; i++)
 		if (fds[2 + i].revents)
-			tablet_read(live, i);
+			live_tablet_read(live, i);
 	return true;
 }
 
@@ -324,7 +155,7 @@ static void *thread_main(void *argument)
 	do {
 		int64_t now_us = live_clock_us();
 		if (search || now_us - searched_us >= RESCAN_MS * INT64_C(1000)) {
-			tablets_search(live);
+			live_tablets_search(live);
 			searched_us = now_us;
 			search = false;
 		}
@@ -347,6 +178,7 @@ static void monitor_open(struct live *live)
 
 static void live_free(struct live *live)
 {
+	live_setup_close(live->setup);
 	for (int i = 0; i < LIVE_TABLETS_MAX; i++)
 		if (live->tablet[i].fd >= 0 && live->tablet[i].own)
 			close(live->tablet[i].fd);
@@ -374,8 +206,9 @@ struct live *live_open(const struct board *board, int64_t start_us)
 		live->tablet[i].fd = -1;
 	snprintf(live->text, sizeof live->text, "looking for a tablet");
 	live->nodes = calloc(LIVE_NODES_MAX, sizeof *live->nodes);
+	live->setup = live_setup_open(live_tablet_set_up, live);
 	monitor_open(live);
-	if (!live->nodes || pipe2(live->wake, O_CLOEXEC) < 0 ||
+	if (!live->nodes || !live->setup || pipe2(live->wake, O_CLOEXEC) < 0 ||
 	    pthread_create(&live->thread, NULL, thread_main, live)) {
 		live_free(live);
 		return NULL;

@@ -1,17 +1,20 @@
 /* Attached tablets and buttons, live: threads read, stamp and queue; the frame loop collects.
  *
- *   hidraw nodes --thread of live.c--+
- *                                        +--> queue --live_collect--> frame_reports
- *   GPIO lines ----thread of buttons.c---+
+ *   hidraw nodes --thread of live.c-------+
+ *   makers' protocols --of live_setup.c---+
+ *                                         +--> queue --live_collect--> frame_reports
+ *   GPIO lines ----thread of buttons.c----+
  *
- * Nothing in the frame loop waits for a device: plugging, unplugging and searching happen in the
- * threads. A full queue drops the newest reports and counts them. */
+ * Nothing in the frame loop waits for a device: plugging, unplugging, setting up and searching
+ * happen in the threads. A tablet that speaks its maker's protocol is plugged in when it is set up,
+ * or when that failed and its descriptor alone must do. What falls back to its default mode is set
+ * up again. A full queue drops the newest reports and counts them. */
 #ifndef LIVE_H
 #define LIVE_H
 
 #include "board.h"
-#include "pen.h"
-#include "tape.h"
+#include "pen_setup.h"
+#include "tape_learn.h"
 
 /* Which device number is whose, live and on tapes that we record. */
 enum {
@@ -28,15 +31,28 @@ enum { LIVE_NODES_MAX = 32, LIVE_TEXT_MAX = 240 };
 
 /* A hidraw node as it is found; nothing is sent to it, and only pens are ever opened. */
 struct live_node {
-	char path[64];           /* /dev/hidraw3 */
-	char place[96];          /* where it is plugged in: the same after plugging in again */
-	char driver[32];         /* the kernel's driver, "" unknown */
-	struct tape_device told; /* name, ids, descriptor */
+	char path[64];            /* /dev/hidraw3 */
+	char place[96];           /* where it is plugged in: the same after plugging in again */
+	int interface;            /* of the USB device; -1 unknown */
+	int usb_bus, usb_address; /* 0: not on USB */
+	char driver[32];          /* the kernel's driver, "" unknown */
+	struct tape_device told;  /* name, ids, descriptor */
 	int layout_count;
 	struct pen_layout layout[PEN_REPORTS_MAX];
+	bool speaks; /* a maker's protocol, and recipe makes it */
+	struct pen_recipe recipe;
+	char protocol[160];       /* which, or why none */
 	bool readable;            /* we may open it */
+	bool usb_writable;        /* and its USB device, where the recipe reads strings */
 	char text[LIVE_TEXT_MAX]; /* what it is, or what is missing and the remedy, in a line */
 };
+
+struct pen_identity live_node_identity(const struct live_node *node);
+
+/* Size in mm and whether it is a display, as libwacom's data has it: whole inches, and by name and
+ * ids only. False: it does not know the tablet. */
+bool live_model_find(const struct live_node *node, float *width_mm, float *height_mm,
+		     bool *display);
 
 /* Lists the hidraw nodes, at most `capacity`; returns how many there are. */
 int live_nodes_find(struct live_node *nodes, int capacity);
@@ -81,5 +97,10 @@ void live_unplug(struct live *live, int device);
 /* Reads an open descriptor like a tablet's hidraw node from now on; a read of 0 bytes or an error
  * is its unplugging. Returns the device, -1: no place. */
 int live_attach(struct live *live, int fd, const char *place, const struct tape_device *told);
+
+/* The same for a tablet that must be set up first where its descriptor says so, through
+ * `transport`, which must outlive it. Tablets with the same `usb` are interfaces of one. */
+int live_attach_setup(struct live *live, int fd, const char *place, int usb,
+		      const struct tape_device *told, const struct pen_transport *transport);
 
 #endif

@@ -11,6 +11,7 @@
 #include <hidapi.h>
 #include <linux/hidraw.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -50,6 +51,23 @@ static void descriptor_ask(int fd, struct tape_device *told)
 	told->descriptor_size = size;
 }
 
+static int number_read(const char *base, const char *name, int radix)
+{
+	char path[160], text[16];
+	snprintf(path, sizeof path, "/sys/class/hidraw/%s/device/%s", base, name);
+	int size = file_read(path, text, sizeof text - 1);
+	text[size < 0 ? 0 : size] = 0;
+	return size > 0 ? (int)strtol(text, NULL, radix) : -1;
+}
+
+/* A HID device lies within its USB interface, and that within the USB device. */
+static void usb_read(const char *base, struct live_node *node)
+{
+	node->interface = number_read(base, "../bInterfaceNumber", 16);
+	node->usb_bus = int_max(0, number_read(base, "../../busnum", 10));
+	node->usb_address = int_max(0, number_read(base, "../../devnum", 10));
+}
+
 /* The bus, and where on it. */
 static void uevent_read(const char *base, struct live_node *node)
 {
@@ -68,12 +86,24 @@ static void uevent_read(const char *base, struct live_node *node)
 		snprintf(node->place, sizeof node->place, "%s", node->path);
 }
 
+struct pen_identity live_node_identity(const struct live_node *node)
+{
+	return (struct pen_identity){
+		.bus = node->told.bus,
+		.vendor = node->told.vendor,
+		.product = node->told.product,
+		.driver = node->driver,
+		.descriptor = node->told.descriptor,
+		.descriptor_size = node->told.descriptor_size,
+	};
+}
+
 /* --- in words --------------------------------------------------------------------------------- */
 
 static void text_pen(struct live_node *node)
 {
 	const struct pen_layout *l = &node->layout[0];
-	char size[48] = "size not stated: set tablet_mm in the board file";
+	char size[64] = "size not stated: set tablet_mm in the board file";
 	if (l->width_mm > 0.0f)
 		snprintf(size, sizeof size, "%.1f x %.1f mm", (double)l->width_mm,
 			 (double)l->height_mm);
@@ -89,26 +119,49 @@ static void text_pen(struct live_node *node)
 
 static void node_words(struct live_node *node, const char *reason, int error)
 {
-	if (node->layout_count && node->readable)
-		text_pen(node);
-	else if (node->layout_count && error == EACCES)
+	bool pen = node->layout_count || node->speaks;
+	if (pen && error == EACCES)
 		snprintf(node->text, LIVE_TEXT_MAX,
 			 "pen, but permission denied; a udev rule must give this user's group %s",
 			 node->path);
-	else if (node->layout_count)
+	else if (pen && !node->readable)
 		snprintf(node->text, LIVE_TEXT_MAX, "pen, but it cannot be opened: %s",
 			 strerror(error));
+	else if (node->speaks)
+		snprintf(node->text, LIVE_TEXT_MAX, "pen: %.150s%s", node->protocol,
+			 node->usb_writable ? "" : ", but permission denied on its USB device");
+	else if (node->layout_count)
+		text_pen(node);
 	else if (!node->told.descriptor_size)
 		snprintf(node->text, LIVE_TEXT_MAX, "its report descriptor cannot be read: %s",
 			 strerror(error));
 	else
 		snprintf(node->text, LIVE_TEXT_MAX, "no pen: %s", reason);
-	if (!node->layout_count && !strcmp(node->driver, "wacom"))
+	if (!pen && !strcmp(node->driver, "wacom"))
 		snprintf(node->text, LIVE_TEXT_MAX,
 			 "no pen by its descriptor (kernel driver wacom): %s", reason);
 }
 
 /* --- nodes ------------------------------------------------------------------------------------ */
+
+static void descriptor_read(struct live_node *node, char reason[160])
+{
+	struct pen_identity identity = live_node_identity(node);
+	node->layout_count = pen_descriptor_read(node->told.descriptor, node->told.descriptor_size,
+						 node->layout, reason);
+	node->speaks = pen_identify(&identity, &node->recipe, node->protocol);
+}
+
+/* Strings are read from the USB device's own node. */
+static bool usb_writable(const struct live_node *node)
+{
+	char path[64];
+	snprintf(path, sizeof path, "/dev/bus/usb/%03d/%03d", node->usb_bus, node->usb_address);
+	for (int i = 0; i < node->recipe.step_count; i++)
+		if (node->recipe.step[i].kind == PEN_STEP_STRING)
+			return access(path, R_OK | W_OK) == 0;
+	return true;
+}
 
 static void node_inspect(struct live_node *node)
 {
@@ -118,15 +171,15 @@ static void node_inspect(struct live_node *node)
 	snprintf(path, sizeof path, "/sys/class/hidraw/%s/device/driver", base);
 	link_name(path, node->driver, sizeof node->driver);
 	uevent_read(base, node);
+	usb_read(base, node);
 	snprintf(path, sizeof path, "/sys/class/hidraw/%s/device/report_descriptor", base);
 	node->told.descriptor_size = int_max(
 		0, file_read(path, node->told.descriptor, TAPE_DESCRIPTOR_MAX));
 	bool known = node->told.descriptor_size > 0;
 	if (known)
-		node->layout_count = pen_descriptor_read(
-			node->told.descriptor, node->told.descriptor_size, node->layout, reason);
+		descriptor_read(node, reason);
 	int error = 0;
-	if (!known || node->layout_count) {
+	if (!known || node->layout_count || node->speaks) {
 		int fd = open(node->path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
 		error = fd < 0 ? errno : 0;
 		node->readable = fd >= 0;
@@ -136,8 +189,8 @@ static void node_inspect(struct live_node *node)
 			close(fd);
 	}
 	if (!known && node->told.descriptor_size)
-		node->layout_count = pen_descriptor_read(
-			node->told.descriptor, node->told.descriptor_size, node->layout, reason);
+		descriptor_read(node, reason);
+	node->usb_writable = node->speaks && usb_writable(node);
 	node_words(node, reason, error);
 }
 

@@ -44,7 +44,9 @@ static void line_write(struct recorder *r, int length)
 
 static bool same_device(const struct tape_device *a, const struct tape_device *b)
 {
-	return a->descriptor_size == b->descriptor_size &&
+	return a->speaks.family == b->speaks.family && a->speaks.x_maximum == b->speaks.x_maximum &&
+	       a->speaks.y_maximum == b->speaks.y_maximum &&
+	       a->descriptor_size == b->descriptor_size &&
 	       !memcmp(a->descriptor, b->descriptor, (size_t)a->descriptor_size);
 }
 

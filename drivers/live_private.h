@@ -1,0 +1,67 @@
+/* What live.c (queue, thread) and live_tablet.c (tablets) share. */
+#ifndef LIVE_PRIVATE_H
+#define LIVE_PRIVATE_H
+
+#include "live_setup.h"
+
+#include <libudev.h>
+#include <pthread.h>
+
+enum {
+	QUEUE_MAX = 1024,   /* reports: 2 s of a 500 Hz tablet */
+	QUEUE_RESERVE = 16, /* kept free for plugging and unplugging */
+	SIZE_UNPLUGGED = 0,
+	SIZE_PLUGGED = -1,
+};
+
+struct tablet {
+	int fd; /* -1: free */
+	bool own;
+	char path[64];
+	char place[96];
+	int layout_count;
+	struct pen_layout layout[PEN_REPORTS_MAX];
+	struct pen_memory memory;
+
+	bool plugged;        /* the frame loop knows of it */
+	bool sets_up;        /* it has a recipe */
+	unsigned job;        /* of live_setup.h */
+	int usb;             /* the same for the interfaces of one USB device; 0: none */
+	int64_t renew_at_us; /* not set up again before */
+	int renewals;
+	char reason[160]; /* why it could not be set up; "" it was, or need not be */
+};
+
+struct live {
+	pthread_t thread;
+	int wake[2]; /* a byte stops the thread */
+	int64_t start_us;
+	struct board board;
+	struct udev *udev;
+	struct udev_monitor *monitor;
+	struct live_node *nodes; /* the thread's */
+	struct live_setup *setup;
+
+	pthread_mutex_t lock; /* for all below */
+	struct tablet tablet[LIVE_TABLETS_MAX];
+	struct tape_device told[PEN_DEVICES_MAX];
+	unsigned jobs;
+	int first, count;
+	long lost;
+	char text[LIVE_TEXT_MAX];
+	struct raw_report queue[QUEUE_MAX];
+};
+
+/* With live->lock held. */
+void live_queue(struct live *live, int device, int size, const uint8_t *bytes);
+
+/* Opens what is new and wanted. */
+void live_tablets_search(struct live *live);
+
+/* Takes what one tablet has ready. */
+void live_tablet_read(struct live *live, int device);
+
+/* What the thread of live_setup.c found out. */
+live_setup_done live_tablet_set_up;
+
+#endif
