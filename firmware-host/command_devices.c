@@ -4,13 +4,16 @@
 
 #include "board_file.h"
 #include "buttons.h"
+#include "device_words.h"
 #include "live.h"
 #include "options.h"
 #include "store.h"
 
+#include <grp.h>
 #include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 static const char usage[] =
 	"usage: kitsuke devices [--board FILE]\n"
@@ -68,6 +71,39 @@ static json_t *layout_json(const struct pen_layout *l)
 	return object;
 }
 
+static json_t *shape_json(const struct pen_shape *shape)
+{
+	json_t *reports = json_array();
+	for (int i = 0; i < shape->count; i++) {
+		const struct pen_shape_report *r = &shape->report[i];
+		json_array_append_new(reports,
+				      json_pack("{s:i, s:i, s:i, s:i, s:i, s:i}", "id", r->id,
+						"usage_page", (int)(r->application >> 16), "usage",
+						(int)(r->application & 0xffff), "input_bytes",
+						r->input_bytes, "output_bytes", r->output_bytes,
+						"feature_bytes", r->feature_bytes));
+	}
+	return reports;
+}
+
+/* Which maker's protocol a USB device with this descriptor would be asked to speak. */
+static void protocol_json(json_t *object, const uint8_t *descriptor, int size)
+{
+	struct pen_identity identity = {
+		.bus = 3, .driver = "", .descriptor = descriptor, .descriptor_size = size};
+	struct pen_recipe recipe;
+	struct pen_shape shape;
+	char reason[160];
+	bool speaks = pen_identify(&identity, &recipe, reason) &&
+		      recipe.family != PEN_BY_DESCRIPTOR;
+	pen_shape_read(&shape, descriptor, size);
+	json_object_set_new(object, "protocol",
+			    speaks ? json_string(pen_family_rule(recipe.family)->word)
+				   : json_null());
+	json_object_set_new(object, "protocol_reason", json_string(reason));
+	json_object_set_new(object, "reports", shape_json(&shape));
+}
+
 static int descriptor_print(const char *path)
 {
 	struct pen_layout layout[PEN_REPORTS_MAX];
@@ -81,8 +117,8 @@ static int descriptor_print(const char *path)
 	int bounded = size > DESCRIPTOR_BYTES_MAX ? DESCRIPTOR_BYTES_MAX + 1 : (int)size;
 	int count = pen_descriptor_read((const uint8_t *)bytes, bounded, layout, reason);
 	bool sound = pen_descriptor_sound((const uint8_t *)bytes, bounded);
-	free(bytes);
 	if (!sound) {
+		free(bytes);
 		fprintf(stderr,
 			"kitsuke devices: %s: %s; a binary HID report descriptor is needed\n", path,
 			reason);
@@ -94,6 +130,8 @@ static int descriptor_print(const char *path)
 	json_t *object = json_pack("{s:s, s:s, s:o}", "bits_count_from",
 				   "the start of the report, id byte included", "reason", reason,
 				   "pens", pens);
+	protocol_json(object, (const uint8_t *)bytes, bounded);
+	free(bytes);
 	json_dumpf(object, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(7));
 	putchar('\n');
 	json_decref(object);
@@ -106,12 +144,14 @@ static void tablets_print(void)
 {
 	struct live_node *nodes = calloc(LIVE_NODES_MAX, sizeof *nodes);
 	int count = nodes ? live_nodes_find(nodes, LIVE_NODES_MAX) : 0;
+	const struct group *group = getgrgid(getgid());
 	printf("tablets:\n");
 	for (int i = 0; i < count; i++) {
 		const struct live_node *node = &nodes[i];
-		printf("  %s  %04x:%04x  %s%s%s\n      %s\n", node->path,
-		       (unsigned)node->told.vendor, (unsigned)node->told.product, node->told.name,
-		       node->driver[0] ? ", kernel driver " : "", node->driver, node->text);
+		struct device_model model = {0};
+		if (node->layout_count || node->speaks)
+			live_model_find(node, &model.width_mm, &model.height_mm, &model.display);
+		device_words(stdout, node, &model, group ? group->gr_name : "input");
 	}
 	if (!count)
 		printf("  none: no HID device is attached, or the kernel has no hidraw\n");

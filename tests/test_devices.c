@@ -1,5 +1,6 @@
 /* The commands about devices, called like main calls them. */
 #include "commands.h"
+#include "device_words.h"
 #include "pen.h"
 #include "tape.h"
 #include "test.h"
@@ -75,6 +76,17 @@ static void check_descriptor(void)
 	CHECK(strlen(json_string_value(json_object_get(object, "reason"))) > 10);
 	json_decref(object);
 
+	/* a maker's protocol by its shape */
+	static const uint8_t vendor[] = {0x06, 0x00, 0xff, 0x09, 0x01, 0xa1, 0x01, 0x85,
+					 0x08, 0x09, 0x01, 0x15, 0x00, 0x26, 0xff, 0x00,
+					 0x75, 0x08, 0x95, 0x0b, 0x81, 0x02, 0xc0};
+	CHECK(descriptor_status(vendor, sizeof vendor) == STATUS_DONE);
+	object = json_load_file(FOLDER "/output", 0, &error);
+	json_t *report = json_array_get(json_object_get(object, "reports"), 0);
+	CHECK(!strcmp(json_string_value(json_object_get(object, "protocol")), "uclogic-2"));
+	CHECK(json_integer_value(json_object_get(report, "input_bytes")) == 12);
+	json_decref(object);
+
 	/* cut off, empty, too long, absent */
 	static const uint8_t zeros[DESCRIPTOR_BYTES_MAX + 1];
 	CHECK(descriptor_status(mouse_descriptor, 20) == STATUS_INPUT);
@@ -84,6 +96,78 @@ static void check_descriptor(void)
 	char *absent[] = {"devices", "--descriptor", FOLDER "/absent"};
 	CHECK(run(command_devices, 3, absent, FOLDER "/output") == STATUS_INPUT);
 	CHECK(output_has(FOLDER "/output", "absent"));
+}
+
+/* One node's lines. */
+static const char *words_of(const struct live_node *node)
+{
+	static char text[4096];
+	struct device_model none = {0};
+	FILE *out = fmemopen(text, sizeof text, "w");
+	device_words(out, node, &none, "kiosk");
+	fclose(out);
+	return text;
+}
+
+static void has(const char *text, const char *words)
+{
+	if (!strstr(text, words)) {
+		fprintf(stderr, "\"%s\" is not in: %s\n", words, text);
+		test_failures++;
+	}
+}
+
+static void check_words(void)
+{
+	struct live_node node = {.path = "/dev/hidraw3",
+				 .driver = "hid-generic",
+				 .interface = 1,
+				 .usb_bus = 1,
+				 .usb_address = 4,
+				 .readable = true,
+				 .usb_writable = true,
+				 .text = "pen",
+				 .told = {.name = "A Tablet",
+					  .bus = 3,
+					  .vendor = 0x256c,
+					  .product = 0x6d,
+					  .descriptor_size = mouse_descriptor_size}};
+	memcpy(node.told.descriptor, mouse_descriptor, (size_t)mouse_descriptor_size);
+	char reason[160];
+	node.layout_count = pen_descriptor_read(mouse_descriptor, mouse_descriptor_size,
+						node.layout, reason);
+	has(words_of(&node), "256c:006d  A Tablet, interface 1");
+	has(words_of(&node), "its report descriptor (1 reports");
+	has(words_of(&node), "/dev/hidraw3 can be read");
+	has(words_of(&node), "tablet_mm");
+	node.layout[0].width_mm = 200.0f;
+	has(words_of(&node), "to mend     nothing");
+	node.readable = false;
+	has(words_of(&node), "CANNOT be read");
+	has(words_of(&node), "GROUP=\"kiosk\"");
+	has(words_of(&node), "/etc/udev/rules.d/70-kitsuke-256c-006d.rules");
+	node.readable = true;
+	strcpy(node.driver, "uclogic");
+	has(words_of(&node), "in the way of the maker's protocol");
+	has(words_of(&node), "/etc/modprobe.d/kitsuke-hid_uclogic.conf");
+	strcpy(node.driver, "hid-generic");
+	node.speaks = true;
+	node.recipe = (struct pen_recipe){
+		.family = PEN_UGEE_2,
+		.step_count = 2,
+		.step = {{PEN_STEP_OUTPUT, false, true, 0, 3, {2, 0xb0, 4}},
+			 {PEN_STEP_STRING, true, false, 100, 0, {0}}}};
+	has(words_of(&node), "Ugee 2 (XP-Pen, Parblo), by the shape");
+	has(words_of(&node), "output 02 b0 04, string 100 if need be");
+	has(words_of(&node), "/dev/bus/usb/001/004 can be asked");
+	node.usb_writable = false;
+	has(words_of(&node), "CANNOT be asked");
+	has(words_of(&node), "SUBSYSTEM==\"usb\", ATTR{idVendor}==\"256c\"");
+	node.speaks = false;
+	node.layout_count = 0;
+	snprintf(node.protocol, sizeof node.protocol, "no known protocol has such reports");
+	has(words_of(&node), "none; no known protocol");
+	CHECK(!strstr(words_of(&node), "to mend"));
 }
 
 static void check_attached(void)
@@ -123,6 +207,7 @@ int main(void)
 	if (system("mkdir -p " FOLDER) != 0)
 		return EXIT_FAILURE;
 	check_descriptor();
+	check_words();
 	check_attached();
 	check_record();
 	return test_end();
