@@ -127,20 +127,30 @@ void live_tablet_set_up(void *context, int device, unsigned job,
 	pthread_mutex_unlock(&live->lock);
 }
 
+/* May it be set up again? Only what spoke a protocol before can have fallen back from it. */
+static bool renewal_due_locked(struct live *live, int device, int64_t now_us)
+{
+	struct tablet *tablet = &live->tablet[device];
+	bool due = tablet->fd >= 0 && tablet->sets_up &&
+		   live->told[device].speaks.family != PEN_BY_DESCRIPTOR &&
+		   now_us >= tablet->renew_at_us && tablet->renewals < RENEWALS_MAX;
+	if (due) {
+		tablet->renew_at_us = now_us + RENEW_EVERY_US;
+		tablet->renewals++;
+	}
+	return due;
+}
+
 /* This tablet's device sent what its default mode sends: whoever set it up does so again. */
 static void relapsed(struct live *live, int device)
 {
 	int64_t now_us = live_clock_us();
 	for (int i = 0; i < LIVE_TABLETS_MAX; i++) {
-		struct tablet *tablet = &live->tablet[i];
-		bool same = i == device || (tablet->usb && tablet->usb == live->tablet[device].usb);
+		int usb = live->tablet[device].usb;
+		if (i != device && (!usb || live->tablet[i].usb != usb))
+			continue;
 		pthread_mutex_lock(&live->lock);
-		bool due = same && tablet->fd >= 0 && tablet->sets_up && tablet->renew_at_us &&
-			   now_us >= tablet->renew_at_us && tablet->renewals < RENEWALS_MAX;
-		if (due) {
-			tablet->renew_at_us = now_us + RENEW_EVERY_US;
-			tablet->renewals++;
-		}
+		bool due = renewal_due_locked(live, i, now_us);
 		pthread_mutex_unlock(&live->lock);
 		if (due)
 			live_setup_again(live->setup, i);

@@ -540,6 +540,11 @@ bool pen_identify_end(const struct pen_identity *identity, const struct pen_reci
 	else
 		sound = end_by_model(identity, recipe, answers, vendor, width_mm, height_mm,
 				     reason);
+	if (sound && !pen_vendor_sound(vendor)) {
+		snprintf(reason, 160, "%d x %d units with %d levels are no tablet",
+			 vendor->x_maximum, vendor->y_maximum, vendor->pressure_maximum);
+		sound = false;
+	}
 	if (!sound)
 		*vendor = (struct pen_vendor){0};
 	return sound;

@@ -13,4 +13,8 @@ void tape_learn(struct pen *pen, int device, const struct tape_device *told);
 /* The protocol by model alone; PEN_BY_DESCRIPTOR when that does not tell. */
 struct pen_vendor tape_speaks(const struct tape_device *told, float *width_mm, float *height_mm);
 
+/* For dumps that have neither descriptors nor ids: the protocol that most reports of the device
+ * have the form of, with what was seen as its ranges. PEN_BY_DESCRIPTOR: none. */
+struct pen_vendor tape_guess(const struct tape *tape, int device);
+
 #endif

@@ -27,12 +27,14 @@ enum {
 static const char usage[] =
 	"usage: kitsuke replay TAPE... --out DIR [--no-pictures] [--pictures-every FRAMES]\n"
 	"                      [--body FILE|mannequin] [--jitter-mm N] [--seed N] [--threads N]\n"
-	"       kitsuke replay TAPE... --samples\n";
+	"       kitsuke replay TAPE... --samples [--descriptor FILE]\n";
 
 struct replay {
 	const char *tape_path, *out, *body;
 	bool no_pictures, samples, progress;
 	long pictures_every, jitter_mm, seed;
+	uint8_t *descriptor; /* of devices that the tape does not describe */
+	int descriptor_size;
 	struct crew *crew;
 	struct tape tape;
 	size_t cursor; /* into the tape's events */
@@ -81,11 +83,36 @@ static bool load_tape(struct replay *replay)
 	return true;
 }
 
+/* A dump of other programs may have neither descriptor nor ids: --descriptor gives the one, and
+ * what its reports look like the other. */
+static void complete_device(struct replay *replay, int d)
+{
+	struct tape_device *device = &replay->tape.device[d];
+	if (device->descriptor_size)
+		return;
+	if (replay->descriptor) {
+		memcpy(device->descriptor, replay->descriptor, (size_t)replay->descriptor_size);
+		device->descriptor_size = replay->descriptor_size;
+		device->used = true;
+		return;
+	}
+	device->speaks = tape_guess(&replay->tape, d);
+	device->used = device->speaks.family != PEN_BY_DESCRIPTOR;
+	if (device->used)
+		fprintf(stderr,
+			"kitsuke replay: note: %s: device %d has no descriptor; its reports look "
+			"like %s with %d x %d units, %d levels\n",
+			replay->tape_path, d, pen_family_rule(device->speaks.family)->name,
+			device->speaks.x_maximum, device->speaks.y_maximum,
+			device->speaks.pressure_maximum + 1);
+}
+
 static void learn_devices(struct replay *replay, struct pen *pen)
 {
 	pen_mount(pen, &replay->tape.mount);
 	for (int d = 0; d < TAPE_DEVICES_MAX; d++) {
 		const struct tape_device *device = &replay->tape.device[d];
+		complete_device(replay, d);
 		if (!device->used)
 			continue;
 		tape_learn(pen, d, device);
@@ -333,12 +360,29 @@ static int replay_one_of(const struct replay *common, const char *path, bool alo
 	return status;
 }
 
+static bool load_descriptor(struct replay *common, const char *path)
+{
+	size_t size;
+	common->descriptor = (uint8_t *)store_read(path, &size, common->fault);
+	if (!common->descriptor)
+		return false;
+	common->descriptor_size = size > TAPE_DESCRIPTOR_MAX ? 0 : (int)size;
+	if (pen_descriptor_sound(common->descriptor, common->descriptor_size))
+		return true;
+	snprintf(common->fault, FAULT_BYTES,
+		 "%.250s: no sound report descriptor; kitsuke devices --descriptor tells why",
+		 path);
+	free(common->descriptor);
+	return false;
+}
+
 int command_replay(int argc, char **argv)
 {
 	static struct replay common;
 	static struct threads threads;
 	const char *files[OPTION_FILES_MAX];
 	int count;
+	const char *descriptor = NULL;
 	long thread_count = 1; /* several replays side by side use the processors better */
 	common.seed = 1;
 	const struct option_value known[] = {
@@ -346,6 +390,7 @@ int command_replay(int argc, char **argv)
 		{"--body", NULL, &common.body, NULL},
 		{"--no-pictures", &common.no_pictures, NULL, NULL},
 		{"--samples", &common.samples, NULL, NULL},
+		{"--descriptor", NULL, &descriptor, NULL},
 		{"--pictures-every", NULL, NULL, &common.pictures_every},
 		{"--jitter-mm", NULL, NULL, &common.jitter_mm},
 		{"--seed", NULL, NULL, &common.seed},
@@ -357,6 +402,8 @@ int command_replay(int argc, char **argv)
 		fputs(usage, stderr);
 		return STATUS_USAGE;
 	}
+	if (descriptor && !load_descriptor(&common, descriptor))
+		return complain(&common, STATUS_INPUT);
 	if (!threads_start(&threads, thread_count, NULL, common.fault))
 		return complain(&common, STATUS_USAGE);
 	common.crew = threads_crew(&threads);
@@ -367,5 +414,6 @@ int command_replay(int argc, char **argv)
 		status = one > status ? one : status;
 	}
 	threads_stop(&threads);
+	free(common.descriptor);
 	return status;
 }
