@@ -132,6 +132,8 @@ static bool bus_open(struct bus *bus, const struct live_node *node, char reason[
 	bus->usb = open(path, O_RDWR | O_CLOEXEC);
 	if (bus->usb < 0)
 		return bus_refused(path, reason);
+	/* the device is given by its node: libusb need not look for others, nor watch for them */
+	libusb_set_option(NULL, LIBUSB_OPTION_NO_DEVICE_DISCOVERY);
 	int wrong = bus->setup->usb ? 0 : libusb_init(&bus->setup->usb);
 	wrong = wrong ? wrong
 		      : libusb_wrap_sys_device(bus->setup->usb, (intptr_t)bus->usb, &bus->handle);

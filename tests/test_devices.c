@@ -184,6 +184,46 @@ static void check_attached(void)
 	CHECK(output_has(FOLDER "/output", "line 1: rotation = 1"));
 }
 
+static int samples_status(const char *tape, const char *descriptor)
+{
+	char *argv[] = {"replay", "--samples", FOLDER "/tape.hid", "--descriptor",
+			FOLDER "/descriptor"};
+	FILE *file = fopen(argv[2], "w");
+	CHECK(file && fputs(tape, file) >= 0 && fclose(file) == 0);
+	if (descriptor) {
+		file = fopen(argv[4], "wb");
+		CHECK(file && fputs(descriptor, file) >= 0 && fclose(file) == 0);
+	}
+	return run(command_replay, descriptor ? 5 : 3, argv, FOLDER "/output");
+}
+
+/* A maker's protocol on a tape of ours, on another program's by its ids, and on a dump that tells
+ * nothing but its reports. */
+static void check_samples(void)
+{
+	static const char vendor[] =
+		"# kitsuke-tape 1\n# board 1000 500\n# vendor 0 uclogic-2 1000 500 8191\n"
+		"# tablet 0 200.0 100.0\nD: 0\nR: 2 05 0d\nN: pen\nI: 3 256c 006d\n"
+		"E: 0.0 12 08 81 f4 01 fa 00 ff 1f 00 00 00 00\n";
+	static const char wacom[] =
+		"# 027:0 -> 056A:00D4\nD:0\nR: 21 05 0d 09 01 a1 01 85 02 09 01 15 00 25 7f 75 08 "
+		"95 08 81 02 c0\nN: CTL-460\nI: 3 056A 00D4\n"
+		"E: 0.0 9 02 e1 00 10 00 10 ff 03 05\n";
+	static const char dump[] =
+		"001:004:000:STREAM 1536019347.135589\n 08 80 70 C6 06 7C 00 00 00 00 00 00\n\n"
+		"001:004:000:STREAM 1536019347.139589\n 08 81 70 46 06 3C FF 1F 00 00 00 00\n";
+	CHECK(samples_status(vendor, NULL) == STATUS_DONE);
+	CHECK(output_has(FOLDER "/output", "\"touch\", \"x_px\": 500.000, \"y_px\": 250.000"));
+	CHECK(samples_status(wacom, NULL) == STATUS_DONE);
+	CHECK(output_has(FOLDER "/output", "\"touch\""));
+	CHECK(samples_status(dump, NULL) == STATUS_DONE);
+	CHECK(output_has(FOLDER "/output", "look like UC-Logic 2 (Huion, Gaomon) with 50800 x"));
+	CHECK(output_has(FOLDER "/output", "\"hover\""));
+	CHECK(output_has(FOLDER "/output", "\"touch\""));
+	CHECK(samples_status(dump, "no descriptor") == STATUS_INPUT);
+	CHECK(output_has(FOLDER "/output", "no sound report descriptor"));
+}
+
 static void check_record(void)
 {
 	char *nothing[] = {"record"};
@@ -209,6 +249,7 @@ int main(void)
 	check_descriptor();
 	check_words();
 	check_attached();
+	check_samples();
 	check_record();
 	return test_end();
 }

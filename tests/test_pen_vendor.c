@@ -391,6 +391,10 @@ static void check_blocks(void)
 			if (pen_block_1_read(bytes, 18, &block, reason))
 				CHECK(block.x_maximum < 1 << 16);
 		}
+	/* a tablet's name, as one answers to any string it does not know */
+	uint8_t name[PEN_ANSWER_MAX];
+	int length = table_hex("0e03 5400 6100 6200 6c00 6500 7400", name, sizeof name);
+	CHECK(!pen_block_1_read(name, length, &block, reason) && strstr(reason, "text"));
 	uint8_t wrong_type[18];
 	memcpy(wrong_type, second, sizeof wrong_type);
 	wrong_type[1] = 0x0e;
