@@ -7,6 +7,8 @@
 # make hash-matrix  the bundled tape's hash over compilers, levels, sanitizers and aarch64
 # make tremor       the bundled tape with 20 trembling hands
 # make matrix       every real garment on every real body, judged and drawn (tests/matrix.sh)
+# make check-kernel the program in a user-mode Linux with a real hidraw, gpiochip and display; builds that
+#                   kernel once (tests/kernel/build.sh); CASES="NAME ..." runs some only
 # make tapes        the hand writes the bundled tapes anew (tests/hand.c)
 # make examples     pictures of the paper's own examples, before and after, under build/examples
 # make format       clang-format everything; format-check only looks
@@ -72,7 +74,8 @@ TEST_SCRIPTS := $(filter-out $(if $(filter sanitize,$(config)),tests/test_replay
 BENCH := $(patsubst %.c,$(B)/%,$(wildcard tests/bench_*.c))
 FUZZ  := $(patsubst %.c,$(B)/%,$(wildcard tests/fuzz_*.c))
 TOOLS := $(patsubst %.c,$(B)/%,$(wildcard tests/hand.c tests/measure_sections.c tests/drape.c tests/contact.c))
-ALL   := $(LIB) $(MAIN) $(call sources,tests)
+KERNEL_TOOLS := $(patsubst %.c,$(B)/%,$(filter-out %_common.c,$(call sources,tests/kernel)))
+ALL   := $(LIB) $(MAIN) $(call sources,tests) $(call sources,tests/kernel)
 DATA  := $(wildcard tests/tapes/* tests/journals/*)
 
 PACKAGES := cairo pangocairo jansson hidapi-hidraw libusb-1.0 libgpiod libdrm gbm egl glesv2 sdl2 libpng libudev libwacom
@@ -94,6 +97,7 @@ $(B)/tests/test_display_kms: $(B)/tests/fake_card.o
 $(TESTS) $(BENCH) $(FUZZ): %: %.o $(B)/kitsuke.a
 .SECONDEXPANSION:
 $(TOOLS): %: %.o $$(call objects,$$(wildcard $$(subst $(B)/,,$$@)_*.c)) $(B)/kitsuke.a
+$(KERNEL_TOOLS): %: %.o $(call objects,tests/kernel/play_common.c) $(B)/kitsuke.a
 $(FUZZ): LINK := -fsanitize=fuzzer
 # Calls that a program of the tests wants to see pass: the linker sends our calls of f to __wrap_f.
 $(B)/tests/bench_frame: LINK := -Wl,--wrap=drag_move,--wrap=cloth_self
@@ -101,7 +105,7 @@ $(B)/tests/test_display_turn: LINK := -Wl,--wrap=display_context_lost
 $(B)/tests/test_allocation: LINK := $(patsubst %,-Wl$(comma)--wrap=%,malloc calloc realloc \
                              aligned_alloc posix_memalign strdup strndup)
 
-$(B)/kitsuke $(TESTS) $(BENCH) $(FUZZ) $(TOOLS):
+$(B)/kitsuke $(TESTS) $(BENCH) $(FUZZ) $(TOOLS) $(KERNEL_TOOLS):
 	$(call SHORT,link)$(CC) $(FLAGS) $^ $(LINK) $(LDFLAGS) -Wl,--as-needed $(PACKAGE_LIBS) -lm -lpthread -o $@
 
 $(B)/kitsuke.a: $(call objects,$(LIB))
@@ -149,7 +153,7 @@ ifneq ($(filter $(config),debug release),)
 endif
 
 # Everything that links, tests included, without running it.
-programs: $(TESTS) $(BENCH) $(TOOLS)
+programs: $(TESTS) $(BENCH) $(TOOLS) $(KERNEL_TOOLS)
 
 bench: $(BENCH) $(TOOLS)
 	@for bench in $(BENCH); do $$bench || exit; done
@@ -185,6 +189,11 @@ tremor: $(B)/kitsuke
 matrix: $(B)/kitsuke $(B)/tests/drape $(B)/tests/contact
 	@KITSUKE=$(B)/kitsuke TOOLS=$(B)/tests tests/matrix.sh $(build)/matrix
 
+check-kernel:
+	@firmware-host/setup kernel
+	$(SUBMAKE) $(B)/kitsuke $(KERNEL_TOOLS)
+	@KITSUKE=$(B)/kitsuke TOOLS=$(B)/tests/kernel tests/kernel/run.sh $(build)/kernel $(CASES)
+
 tapes: $(B)/tests/hand
 	@for visit in $(TAPES); do $< $$visit tests/tapes/$$visit.hid || exit; done
 
@@ -192,10 +201,10 @@ examples: $(B)/kitsuke
 	@KITSUKE=$(B)/kitsuke tests/examples.sh $(build)/examples
 
 format:
-	$(CLANG_FORMAT) -i $(wildcard */*.[ch])
+	$(CLANG_FORMAT) -i $(wildcard */*.[ch] tests/kernel/*.[ch])
 
 format-check:
-	@$(CLANG_FORMAT) --dry-run -Werror $(wildcard */*.[ch])
+	@$(CLANG_FORMAT) --dry-run -Werror $(wildcard */*.[ch] tests/kernel/*.[ch])
 
 help:
 	@sed -n 's/^# \{0,1\}//p;/^$$/q' Makefile
@@ -204,6 +213,6 @@ clean:
 	rm -rf $(build)
 
 .PHONY: all run check tests programs check-layers check-imports bench bench-peers peers fuzz fuzzers hash-matrix tremor \
-        matrix tapes examples format format-check help clean
+        matrix check-kernel tapes examples format format-check help clean
 .SECONDARY:
 -include $(patsubst %.c,$(B)/%.d,$(ALL)) $(PEER_OBJECTS:.o=.d)

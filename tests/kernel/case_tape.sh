@@ -1,0 +1,26 @@
+#!/bin/sh
+# the bundled visit through uhid and gpio-sim: drawn, sewn, marked, and the shirt is on the body
+# seconds: 150
+. tests/kernel/guest.sh
+
+printf 'budget = 6000000\nthreads = 1\n' >"$folder/board"
+chip_add buttons wrap pin relax
+station --board "$folder/board"
+shown "$out/empty.png"
+"$tools/play" "$tape" "$chip" || fail "the tape could not be played"
+shown "$out/worn.png"
+station_stop
+
+# Frames are the wall's here, so the hash is not the tape's; the visit is.
+edits() {
+  sed -n 's/^\(piece\|copy\|sew\|mark-body\|mark-cloth\|wrap\|pin\|relax\).*/\1/p' "$@" | sort | uniq -c
+}
+"$kitsuke" replay "$tape" --out "$folder/replayed" --no-pictures >/dev/null
+edits "$folder/replayed/journal.kitsuke" >"$folder/wanted"
+edits "$out"/journals/*.kitsuke | diff "$folder/wanted" - || fail "the visit has other edits than the tape's"
+"$kitsuke" dress "$out"/journals/*.kitsuke --report "$out/report.json" --threads 1 >/dev/null ||
+  fail "the journal can't be played"
+for fact in '"head_through_collar": true' '"arms_in_sleeves": 2' '"edge_crossings_body": 0'; do
+  grep -q "$fact" "$out/report.json" || fail "the report does not say $fact"
+done
+finish

@@ -1,0 +1,124 @@
+# What the kernel bench's cases share: `. tests/kernel/guest.sh`; they end with `finish`.
+#
+# $kitsuke is the station as it was built, $tools the bench's own programs, $out a folder that the
+# host sees, $folder one that it doesn't.
+kitsuke=$BENCH_KITSUKE
+tools=$BENCH_TOOLS
+out=/run/out
+folder=/run/tmp
+tape=tests/tapes/tshirt.hid
+failures=0
+
+fail() {
+  echo "FAILED: $*"
+  failures=$((failures + 1))
+}
+
+finish() {
+  [ $failures = 0 ]
+  exit
+}
+
+# wait_for SECONDS COMMAND...: until it succeeds.
+wait_for() {
+  tries=$(($1 * 20))
+  shift
+  while ! "$@" >/dev/null 2>&1; do
+    tries=$((tries - 1))
+    [ $tries -gt 0 ] || return 1
+    sleep 0.05
+  done
+}
+
+# expect SECONDS PATTERN FILE: a line of the file comes to match.
+expect() {
+  wait_for "$1" grep -q -e "$2" "$3" || fail "no \"$2\" in $3 within $1 s"
+}
+
+# ---- tapes ----
+
+# cut FROM TO: the bundled tape's head and what it holds between two times in seconds, pen only.
+cut_tape() {
+  awk -v from="$1" -v to="$2" '
+    /^D:/ { device = $2 }
+    /^E:/ { if (device == 0 && $2 >= from && $2 < to) print; next }
+    !/^# frames/ { print }' "$tape"
+}
+
+# reports DEVICE: what a tape's device sent, a line a report, on stdin.
+reports() {
+  awk -v wanted="$1" '
+    /^D:/ { device = $2 }
+    /^E:/ && device == wanted { sub(/^E: [0-9.]* /, ""); print }
+    /^# unplug/ && $3 == wanted { print "unplug" }'
+}
+
+# ---- buttons ----
+
+# chip NAME LINE...: a GPIO chip with these lines, released; a pressed button pulls its line down.
+# $chip is then the folder with a folder sim_gpioN for each line.
+chip_add() {
+  config=/sys/kernel/config/gpio-sim/$1
+  shift
+  mkdir -p "$config/bank"
+  echo $# >"$config/bank/num_lines"
+  line=0
+  for name in "$@"; do
+    mkdir "$config/bank/line$line"
+    echo "$name" >"$config/bank/line$line/name"
+    line=$((line + 1))
+  done
+  chip_plug "$config"
+}
+
+chip_plug() {
+  echo 1 >"$1/live"
+  chip=/sys/devices/platform/$(cat "$1/dev_name")/$(cat "$1/bank/chip_name")
+  for pull in "$chip"/sim_gpio*/pull; do
+    echo pull-up >"$pull"
+  done
+}
+
+press() {
+  echo pull-down >"$chip/sim_gpio$1/pull"
+}
+
+release() {
+  echo pull-up >"$chip/sim_gpio$1/pull"
+}
+
+# ---- the station ----
+
+# station ARGUMENT...: starts it; its journals lie in $out/journals, its words in $out/station.
+station() {
+  "$kitsuke" --journals "$out/journals" "$@" >>"$out/station" 2>&1 &
+  station=$!
+}
+
+# shown PNG: the display comes to show a picture, and it is the one that the station drew.
+shown() {
+  wait_for 30 "$tools/screen" capture "$station" "$1" ||
+    fail "the display shows no picture of the station's: $("$tools/screen" capture "$station" "$1" 2>&1)"
+}
+
+station_stop() {
+  kill "$station" 2>/dev/null
+  wait "$station"
+  status=$?
+  [ $status = 0 ] || fail "the station ended with status $status: $(tail -n 3 "$out/station")"
+}
+
+journal_has() {
+  cat "$out"/journals/*.kitsuke 2>/dev/null | grep -q -e "$1"
+}
+
+record() {
+  "$kitsuke" record --out "$folder/recorded" "$@" 2>"$out/record" &
+  record=$!
+}
+
+record_stop() {
+  kill "$record"
+  wait "$record" || fail "record ended with status $?: $(tail -n 3 "$out/record")"
+  cp "$folder/recorded" "$out/recorded"
+}

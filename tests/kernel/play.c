@@ -1,0 +1,189 @@
+/* Plays a tape into the kernel: tablets through /dev/uhid, buttons through gpio-sim.
+ *
+ *   play TAPE [CHIP] [--speed N]
+ *
+ * A device comes with its first report, and waits until somebody reads it; after that reports come
+ * at the tape's pace, N times as fast. "# unplug" on the tape pulls the device out. CHIP is
+ * the gpio-sim chip's folder, in which line N is button N, low when pressed. */
+#include "play.h"
+
+#include "pen.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <linux/uhid.h>
+#include <poll.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+#include <unistd.h>
+
+enum {
+	READER_MS = 10000, /* somebody must read by then */
+	SETTLED_MS = 200,  /* whoever only looks at a device has closed it again by then */
+};
+
+struct player {
+	struct tape tape;
+	int fd[TAPE_DEVICES_MAX]; /* on /dev/uhid; -1: unplugged */
+	bool opened[TAPE_DEVICES_MAX];
+	const char *chip;
+	uint8_t held;
+	double speed;
+	int64_t start_us; /* of the tape's time 0, on CLOCK_MONOTONIC */
+};
+
+/* --- a tablet --------------------------------------------------------------------------------- */
+
+static void event_write(int fd, const struct uhid_event *event)
+{
+	if (write(fd, event, sizeof *event) != sizeof *event)
+		play_fail("/dev/uhid");
+}
+
+/* Takes what the kernel tells a device; it asks for nothing that has to be answered. */
+static void events_read(struct player *player, int device)
+{
+	struct uhid_event event;
+	while (read(player->fd[device], &event, sizeof event) > 0) {
+		if (event.type == UHID_OPEN)
+			player->opened[device] = true;
+		if (event.type == UHID_CLOSE)
+			player->opened[device] = false;
+		if (event.type == UHID_GET_REPORT) {
+			struct uhid_event answer = {.type = UHID_GET_REPORT_REPLY};
+			answer.u.get_report_reply.id = event.u.get_report.id;
+			answer.u.get_report_reply.err = EIO;
+			event_write(player->fd[device], &answer);
+		}
+		if (event.type == UHID_SET_REPORT) {
+			struct uhid_event answer = {.type = UHID_SET_REPORT_REPLY};
+			answer.u.set_report_reply.id = event.u.set_report.id;
+			event_write(player->fd[device], &answer);
+		}
+	}
+}
+
+/* Until it has been open for a while: a reader first looks what it is. */
+static void reader_wait(struct player *player, int device)
+{
+	int64_t begin_us = play_clock_us(), opened_us = begin_us;
+	while (!player->opened[device] || play_clock_us() - opened_us < SETTLED_MS * 1000) {
+		struct pollfd ready = {player->fd[device], POLLIN, 0};
+		poll(&ready, 1, 10);
+		events_read(player, device);
+		if (!player->opened[device])
+			opened_us = play_clock_us();
+		if (play_clock_us() - begin_us > READER_MS * 1000)
+			play_complain("nobody reads device %d", device);
+	}
+}
+
+static void tablet_plug(struct player *player, int device)
+{
+	const struct tape_device *told = &player->tape.device[device];
+	struct uhid_event event = {.type = UHID_CREATE2};
+	struct uhid_create2_req *create = &event.u.create2;
+	snprintf((char *)create->name, sizeof create->name, "%s", told->name);
+	snprintf((char *)create->phys, sizeof create->phys, "kitsuke/input%d", device);
+	create->rd_size = (uint16_t)told->descriptor_size;
+	create->bus = (uint16_t)told->bus;
+	create->vendor = (uint32_t)told->vendor;
+	create->product = (uint32_t)told->product;
+	memcpy(create->rd_data, told->descriptor, (size_t)told->descriptor_size);
+	player->fd[device] = open("/dev/uhid", O_RDWR | O_NONBLOCK | O_CLOEXEC);
+	if (player->fd[device] < 0)
+		play_fail("/dev/uhid");
+	player->opened[device] = false;
+	event_write(player->fd[device], &event);
+	int64_t begin_us = play_clock_us();
+	reader_wait(player, device);
+	player->start_us += play_clock_us() - begin_us;
+}
+
+static void tablet_unplug(struct player *player, int device)
+{
+	struct uhid_event event = {.type = UHID_DESTROY};
+	event_write(player->fd[device], &event);
+	close(player->fd[device]);
+	player->fd[device] = -1;
+}
+
+static void tablet_send(struct player *player, int device, const uint8_t *bytes, int size)
+{
+	struct uhid_event event = {.type = UHID_INPUT2};
+	if (player->fd[device] < 0)
+		tablet_plug(player, device);
+	event.u.input2.size = (uint16_t)size;
+	memcpy(event.u.input2.data, bytes, (size_t)size);
+	event_write(player->fd[device], &event);
+	events_read(player, device);
+}
+
+/* --- buttons ---------------------------------------------------------------------------------- */
+
+static void button_pull(const struct player *player, int button, bool pressed)
+{
+	char path[256];
+	snprintf(path, sizeof path, "%s/sim_gpio%d/pull", player->chip, button);
+	const char *pull = pressed ? "pull-down" : "pull-up";
+	int fd = open(path, O_WRONLY | O_CLOEXEC);
+	if (fd < 0 || write(fd, pull, strlen(pull)) < 0)
+		play_fail(path);
+	close(fd);
+}
+
+static void buttons_send(struct player *player, uint8_t held)
+{
+	for (int button = 0; button < BUTTON_COUNT; button++)
+		if ((held ^ player->held) >> button & 1)
+			button_pull(player, button, held >> button & 1);
+	player->held = held;
+}
+
+static bool is_buttons(const struct tape_device *told)
+{
+	return told->descriptor_size == buttons_descriptor_size &&
+	       !memcmp(told->descriptor, buttons_descriptor, (size_t)buttons_descriptor_size);
+}
+
+/* --- the tape --------------------------------------------------------------------------------- */
+
+static void event_play(struct player *player, const struct tape_event *event)
+{
+	const uint8_t *bytes = player->tape.bytes + event->offset;
+	if (event->size == 0 && player->fd[event->device] >= 0)
+		tablet_unplug(player, event->device);
+	else if (event->size && !is_buttons(&player->tape.device[event->device]))
+		tablet_send(player, event->device, bytes, event->size);
+	else if (event->size && player->chip)
+		buttons_send(player, bytes[0]);
+}
+
+int main(int argc, char **argv)
+{
+	static struct player player;
+	player.speed = 1.0;
+	if (argc < 2)
+		play_complain("usage: play TAPE [CHIP] [--speed N]");
+	for (int i = 2; i < argc; i++)
+		if (!strcmp(argv[i], "--speed") && i + 1 < argc)
+			player.speed = atof(argv[++i]);
+		else
+			player.chip = argv[i];
+	play_tape_load(&player.tape, argv[1]);
+	for (int i = 0; i < TAPE_DEVICES_MAX; i++)
+		player.fd[i] = -1;
+	player.start_us = play_clock_us();
+	if (player.tape.event_count)
+		player.start_us -= (int64_t)((double)player.tape.event[0].time_us / player.speed);
+	for (size_t i = 0; i < player.tape.event_count; i++) {
+		const struct tape_event *event = &player.tape.event[i];
+		play_sleep_until(player.start_us +
+				 (int64_t)((double)event->time_us / player.speed));
+		event_play(&player, event);
+	}
+	play_sleep_until(play_clock_us() + 300000);
+	tape_free(&player.tape);
+	return 0;
+}
