@@ -244,6 +244,7 @@ static bool run(struct station *station)
 		write_journal(station, station->kiosk->journal, station->kiosk->journal_size);
 		if (!station_show(station))
 			return false;
+		service_frame(&station->service, live_clock_us());
 		pace(station);
 		if (station->buttons && buttons_service(station->buttons))
 			station_tell_service(station);
@@ -258,6 +259,7 @@ static bool run(struct station *station)
 
 static void close_station(struct station *station)
 {
+	service_close(&station->service);
 	threads_stop(&station->threads);
 	if (station->kiosk)
 		end_visit(station);
@@ -328,6 +330,7 @@ int command_station(int argc, char **argv)
 	struct sigaction action = {.sa_handler = stop};
 	sigaction(SIGINT, &action, NULL);
 	sigaction(SIGTERM, &action, NULL);
+	service_open(&station.service);
 	bool fine = open_station(&station) && run(&station);
 	if (!fine)
 		station_say(station.fault);
