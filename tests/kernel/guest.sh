@@ -37,12 +37,34 @@ expect() {
 
 # ---- tapes ----
 
-# cut FROM TO: the bundled tape's head and what it holds between two times in seconds, pen only.
+# cut_tape FROM TO: the bundled tape's head and what it holds between two times in seconds, pen only.
 cut_tape() {
   awk -v from="$1" -v to="$2" '
     /^D:/ { device = $2 }
     /^E:/ { if (device == 0 && $2 >= from && $2 < to) print; next }
     !/^# frames/ { print }' "$tape"
+}
+
+# later SECONDS: the same events, later; on stdin.
+later() {
+  awk -v by="$1" '/^E:/ { $2 = sprintf("%013.6f", $2 + by) } { print }'
+}
+
+# as_device NUMBER NAME: a tape of one device with another number and name; on stdin.
+as_device() {
+  sed "/^# /d; /^D: 1/,/^I:/d; s/^D: .*/D: $1/; s/^N: .*/N: $2/"
+}
+
+# edits FILE...: the words of a journal's edits that don't depend on frames, with their counts.
+edits() {
+  sed -n 's/^\(piece\|copy\|sew\|mark-body\|mark-cloth\|wrap\|pin\|relax\) .*/\1/p' "$@" | sort | uniq -c
+}
+
+# same_edits TAPE: the station's journal has the edits that a replay of the tape makes.
+same_edits() {
+  "$kitsuke" replay "$1" --out "$folder/replayed" --no-pictures >/dev/null || fail "$1 can't be played"
+  edits "$folder/replayed/journal.kitsuke" >"$folder/wanted"
+  edits "$out"/journals/*.kitsuke | diff "$folder/wanted" - || fail "the visit has other edits than the tape"
 }
 
 # reports DEVICE: what a tape's device sent, a line a report, on stdin.
@@ -95,16 +117,32 @@ station() {
   station=$!
 }
 
+# supervise ARGUMENT...: starts the station again whenever the machine was at fault, as its service
+# manager does.
+supervise() {
+  while :; do
+    "$kitsuke" --journals "$out/journals" "$@" >>"$out/station" 2>&1 &
+    echo $! >"$folder/station"
+    wait $!
+    status=$?
+    [ $status = 3 ] || exit $status
+    sleep 0.5
+  done &
+  supervisor=$!
+}
+
 # shown PNG: the display comes to show a picture, and it is the one that the station drew.
 shown() {
+  [ -z "${supervisor:-}" ] || station=$(cat "$folder/station")
   wait_for 30 "$tools/screen" capture "$station" "$1" ||
     fail "the display shows no picture of the station's: $("$tools/screen" capture "$station" "$1" 2>&1)"
 }
 
 station_stop() {
   kill "$station" 2>/dev/null
-  wait "$station"
+  wait "${supervisor:-$station}"
   status=$?
+  supervisor=
   [ $status = 0 ] || fail "the station ended with status $status: $(tail -n 3 "$out/station")"
 }
 
@@ -121,4 +159,19 @@ record_stop() {
   kill "$record"
   wait "$record" || fail "record ended with status $?: $(tail -n 3 "$out/record")"
   cp "$folder/recorded" "$out/recorded"
+}
+
+# ---- a pen on the USB ----
+
+# usb_plug TAPE OPTION...: plugs it in; usb_go lets it play.
+usb_plug() {
+  mkfifo "$folder/go"
+  "$tools/usb_pen" "$@" <"$folder/go" >"$out/pen" 2>&1 &
+  pen=$!
+  exec 9>"$folder/go"
+}
+
+usb_go() {
+  echo >&9
+  exec 9>&-
 }

@@ -20,7 +20,8 @@
 
 enum {
 	READER_MS = 10000, /* somebody must read by then */
-	SETTLED_MS = 200,  /* whoever only looks at a device has closed it again by then */
+	SETTLED_MS =
+		500, /* whoever only looks at a device, udev too, has closed it again by then */
 };
 
 struct player {
