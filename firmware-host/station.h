@@ -28,7 +28,7 @@ struct station {
 	struct frame_reports *reports;
 	struct live *live;
 	struct buttons *buttons;
-	struct service service; /* the manager of it */
+	struct service service;
 	int64_t start_us; /* of frame 0, on CLOCK_MONOTONIC; moves on with every late frame */
 	int64_t opened_us;
 	int journal;    /* file, -1: none */

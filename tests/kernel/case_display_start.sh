@@ -3,8 +3,7 @@
 . tests/kernel/guest.sh
 
 mv /dev/dri/card0 /dev/away
-station
-wait $station
+"$kitsuke" --journals "$out/journals" 2>"$out/station"
 status=$?
 [ $status = 3 ] || fail "without a card the station ended with status $status"
 grep -q '/dev/dri/card' "$out/station" || fail "it does not say what is missing"

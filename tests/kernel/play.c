@@ -2,20 +2,19 @@
  *
  *   play TAPE [CHIP] [--speed N]
  *
- * A device comes with its first report, and waits until somebody reads it; after that reports come
- * at the tape's pace, N times as fast. "# unplug" on the tape pulls the device out. CHIP is
- * the gpio-sim chip's folder, in which line N is button N, low when pressed. */
+ * A device comes with its first report, and waits until a program reads it; after that reports
+ * come at the tape's pace, N times as fast. "# unplug" on the tape pulls the device out.
+ * CHIP is the gpio-sim chip's folder, in which line N is button N, low when pressed. */
 #include "play.h"
 
 #include "pen.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <linux/uhid.h>
-#include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 #include <unistd.h>
 
 enum {
@@ -27,7 +26,6 @@ enum {
 struct player {
 	struct tape tape;
 	int fd[TAPE_DEVICES_MAX]; /* on /dev/uhid; -1: unplugged */
-	bool opened[TAPE_DEVICES_MAX];
 	const char *chip;
 	uint8_t held;
 	double speed;
@@ -47,10 +45,6 @@ static void events_read(struct player *player, int device)
 {
 	struct uhid_event event;
 	while (read(player->fd[device], &event, sizeof event) > 0) {
-		if (event.type == UHID_OPEN)
-			player->opened[device] = true;
-		if (event.type == UHID_CLOSE)
-			player->opened[device] = false;
 		if (event.type == UHID_GET_REPORT) {
 			struct uhid_event answer = {.type = UHID_GET_REPORT_REPLY};
 			answer.u.get_report_reply.id = event.u.get_report.id;
@@ -65,18 +59,77 @@ static void events_read(struct player *player, int device)
 	}
 }
 
+/* The first line of a file that begins so. */
+static bool line_read(const char *path, const char *begin, char *line, int size)
+{
+	FILE *file = fopen(path, "r");
+	bool found = false;
+	while (file && !found && fgets(line, size, file))
+		found = !strncmp(line, begin, strlen(begin));
+	if (file)
+		fclose(file);
+	line[found ? strcspn(line, "\n") : 0] = 0;
+	return found;
+}
+
+/* Our device's node in /dev; false while there is none. */
+static bool node_find(int device, char node[64])
+{
+	char path[320], line[256], phys[64];
+	bool found = false;
+	DIR *list = opendir("/sys/class/hidraw");
+	snprintf(phys, sizeof phys, "HID_PHYS=kitsuke/input%d", device);
+	for (struct dirent *entry; list && !found && (entry = readdir(list));) {
+		snprintf(path, sizeof path, "/sys/class/hidraw/%s/device/uevent", entry->d_name);
+		found = line_read(path, "HID_PHYS=", line, sizeof line) && !strcmp(line, phys);
+		snprintf(node, 64, "/dev/%.40s", entry->d_name);
+	}
+	if (list)
+		closedir(list);
+	return found;
+}
+
+static bool process_reads(const char *process, const char *node)
+{
+	char path[560], target[64];
+	bool found = false;
+	snprintf(path, sizeof path, "/proc/%s/fd", process);
+	DIR *list = opendir(path);
+	for (struct dirent *entry; list && !found && (entry = readdir(list));) {
+		snprintf(path, sizeof path, "/proc/%s/fd/%s", process, entry->d_name);
+		ssize_t length = readlink(path, target, sizeof target - 1);
+		target[length > 0 ? length : 0] = 0;
+		found = !strcmp(target, node);
+	}
+	if (list)
+		closedir(list);
+	return found;
+}
+
+static bool is_read(int device)
+{
+	char node[64];
+	bool found = false;
+	DIR *list = node_find(device, node) ? opendir("/proc") : NULL;
+	for (struct dirent *entry; list && !found && (entry = readdir(list));)
+		found = entry->d_name[0] >= '1' && entry->d_name[0] <= '9' &&
+			process_reads(entry->d_name, node);
+	if (list)
+		closedir(list);
+	return found;
+}
+
 /* Until it has been open for a while: a reader first looks what it is. */
 static void reader_wait(struct player *player, int device)
 {
-	int64_t begin_us = play_clock_us(), opened_us = begin_us;
-	while (!player->opened[device] || play_clock_us() - opened_us < SETTLED_MS * 1000) {
-		struct pollfd ready = {player->fd[device], POLLIN, 0};
-		poll(&ready, 1, 10);
+	int64_t begin_us = play_clock_us(), since_us = begin_us;
+	while (play_clock_us() - since_us < SETTLED_MS * 1000) {
 		events_read(player, device);
-		if (!player->opened[device])
-			opened_us = play_clock_us();
+		if (!is_read(device))
+			since_us = play_clock_us();
 		if (play_clock_us() - begin_us > READER_MS * 1000)
 			play_complain("nobody reads device %d", device);
+		play_sleep_until(play_clock_us() + 20000);
 	}
 }
 
@@ -95,7 +148,6 @@ static void tablet_plug(struct player *player, int device)
 	player->fd[device] = open("/dev/uhid", O_RDWR | O_NONBLOCK | O_CLOEXEC);
 	if (player->fd[device] < 0)
 		play_fail("/dev/uhid");
-	player->opened[device] = false;
 	event_write(player->fd[device], &event);
 	int64_t begin_us = play_clock_us();
 	reader_wait(player, device);

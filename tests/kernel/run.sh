@@ -4,7 +4,7 @@
 #
 # KITSUKE is the program under test, TOOLS the folder of the bench's own, JOBS how many machines run
 # at a time. A case may say in comments of its own which words the kernel's command line gets more
-# ("# kernel: ..."), and how many seconds it may take ("# seconds: ...", else 60).
+# ("# kernel: ..."), and how many seconds it may take ("# seconds: ...", else 120).
 # Exit status: 0 all passed, 1 a case failed, 3 the machine is at fault.
 set -u
 here=$(cd "$(dirname "$0")" && pwd)
@@ -33,7 +33,7 @@ one() {
   seconds=$(word_of seconds "$name")
   begin=$(date +%s%N)
   # hostfs takes a path with a comma for two options; nothing else of the command line may hold a blank
-  HOME=$folder timeout -k 5 "${seconds:-60}" "$kernel" mem=640M root=/dev/root rootfstype=hostfs \
+  HOME=$folder timeout -k 5 "${seconds:-120}" "$kernel" mem=640M root=/dev/root rootfstype=hostfs \
     rootflags=/ ro quiet panic=-1 con=null con0=null,fd:1 con1=null ssl=null video=Virtual-1:640x360 \
     uml_dir="$folder/" umid=linux init="$here/init.sh" $(word_of kernel "$name") \
     BENCH_CASE="$name" BENCH_TREE="$tree" BENCH_OUT="$folder" BENCH_KITSUKE="$kitsuke" \
@@ -42,9 +42,14 @@ one() {
   took=$(awk "BEGIN { printf \"%.1f\", ($(date +%s%N) - $begin) / 1e9 }")
   status=$(cat "$folder/status" 2>/dev/null)
   if [ "$ended" = 124 ] || [ "$ended" = 137 ]; then
-    echo "FAILED: not over after ${seconds:-60} s" >>"$folder/log"
+    echo "FAILED: not over after ${seconds:-120} s" >>"$folder/log"
   elif [ -z "$status" ]; then
     echo "FAILED: the machine ended with status $ended: $(tail -n 3 "$folder/console")" >>"$folder/log"
+  fi
+  if [ "$status" = 0 ] && grep -q afterwards "$here/case_$name.sh"; then
+    (cd "$tree" && BENCH_AFTER=$folder BENCH_KITSUKE=$kitsuke BENCH_TOOLS=$tools sh "$here/case_$name.sh") \
+      >>"$folder/log" 2>&1
+    status=$?
   fi
   verdict=failed
   [ "$status" != 0 ] || verdict=passed
@@ -73,6 +78,7 @@ export out kitsuke tools kernel
 # The machines' memory is a file; 64 MB of /dev/shm, as containers have, are not enough.
 room=$(df -k --output=avail /dev/shm 2>/dev/null | tail -n 1)
 [ "${room:-0}" -gt 1500000 ] || export TMPDIR=$out
+[ -x /lib/systemd/systemd-udevd ] || fail "udev is missing: run 'firmware-host/setup kernel'"
 "$kernel" --version >/dev/null 2>&1 || fail "$kernel does not start; delete it, then it is built anew"
 
 [ $# != 0 ] || set -- $(cd "$here" && printf '%s\n' case_*.sh | sed 's/^case_//; s/\.sh$//')
@@ -82,7 +88,7 @@ for name in "$@"; do
 done
 # Long ones first, so that no processor waits for the last.
 for name in "$@"; do
-  printf '%s %s\n' "$(word_of seconds "$name" | grep . || echo 60)" "$name"
+  printf '%s %s\n' "$(word_of seconds "$name" | grep . || echo 120)" "$name"
 done | sort -rn | cut -d ' ' -f 2 | xargs -n 1 -P "${JOBS:-2}" "$0" --one
 
 echo
@@ -92,5 +98,8 @@ done >"$out/table"
 cat "$out/table"
 failed=$(grep -c '^failed' "$out/table")
 [ "$failed" = 0 ] || echo "what they wrote lies in $out/NAME"
+! grep -q 'ptrace: Operation not permitted' "$out"/*/console ||
+  fail "this host forbids ptrace, by which a user-mode Linux runs its processes: allow it (a container:" \
+    "--cap-add=SYS_PTRACE --security-opt seccomp=unconfined; a host: sysctl kernel.yama.ptrace_scope=1)"
 echo "$(grep -c '^passed' "$out/table") passed, $failed failed"
 [ "$failed" = 0 ]

@@ -8,8 +8,6 @@
  * Only the master may ask for a writeback, so capture borrows the station's own open card. */
 #include "play.h"
 
-#include "picture.h"
-
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -212,19 +210,17 @@ static bool blank(const struct pixels *p)
 
 static void pixels_write(const struct pixels *p, const char *path)
 {
-	char fault[200];
-	uint8_t *rgba = malloc((size_t)p->width * (size_t)p->height * 4), *to = rgba;
-	for (int y = 0; rgba && y < p->height; y++)
-		for (int x = 0; x < p->width; x++, to += 4) {
-			const uint8_t *from = pixel(p, x, y);
-			to[0] = from[2];
-			to[1] = from[1];
-			to[2] = from[0];
-			to[3] = 255;
-		}
-	if (!rgba || !picture_write_png(path, p->width, p->height, rgba, fault))
-		play_complain("%s", rgba ? fault : "no memory");
-	free(rgba);
+	png_image image = {.version = PNG_IMAGE_VERSION,
+			   .width = (png_uint_32)p->width,
+			   .height = (png_uint_32)p->height,
+			   .format = PNG_FORMAT_BGR};
+	uint8_t *bgr = malloc((size_t)p->width * (size_t)p->height * 3), *to = bgr;
+	for (int y = 0; bgr && y < p->height; y++)
+		for (int x = 0; x < p->width; x++, to += 3)
+			memcpy(to, pixel(p, x, y), 3);
+	if (!bgr || !png_image_write_to_file(&image, path, 0, bgr, 0, NULL))
+		play_complain("%s: %s", path, bgr ? image.message : "no memory");
+	free(bgr);
 }
 
 /* --- writeback -------------------------------------------------------------------------------- */
