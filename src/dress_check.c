@@ -85,18 +85,23 @@ static void check_limb(struct wrap *wrap, int part)
 		wrap_diagnose(wrap, "limb-outside", limb_mark(wrap, part), 0, words[part]);
 }
 
-static void check_sleeve(struct wrap *wrap, int part)
+/* The same of a tube cut in one with the trunk. */
+static void check_opening(struct wrap *wrap, int part)
 {
-	const struct garment *garment = wrap->cloth->garment;
-	if (wrap->cloth->welded && !wrap_in_sleeve(wrap, part))
-		wrap_diagnose(
-			wrap, "limb-outside",
-			wrap_piece_mark(wrap, garment->piece[wrap->scratch->opening[part]]), 0,
-			part == PART_ARM_LEFT
-				? "The left arm is outside its sleeve; cut the sleeve so that it "
-				  "points where the arm does, or draw mark %1 anew."
-				: "The right arm is outside its sleeve; cut the sleeve so that it "
-				  "points where the arm does, or draw mark %1 anew.");
+	static const char *const words[PART_COUNT] = {
+		[PART_ARM_LEFT] = "The left arm is outside its sleeve; cut the sleeve so that it "
+				  "points where the arm does, or draw mark %1 anew.",
+		[PART_ARM_RIGHT] = "The right arm is outside its sleeve; cut the sleeve so that "
+				   "it points where the arm does, or draw mark %1 anew.",
+		[PART_LEG_LEFT] = "The left leg is outside its trouser leg; cut it so that it "
+				  "points where the leg does, or draw mark %1 anew.",
+		[PART_LEG_RIGHT] = "The right leg is outside its trouser leg; cut it so that it "
+				   "points where the leg does, or draw mark %1 anew.",
+	};
+	int opening = wrap->scratch->opening[part];
+	int mark = wrap_piece_mark(wrap, wrap->cloth->garment->piece[opening]);
+	if (wrap->cloth->welded && !wrap_in_opening(wrap, part))
+		wrap_diagnose(wrap, "limb-outside", mark, 0, words[part]);
 }
 
 /* Does cloth of the trunk lie between the chest and the crown, across the neck? */
@@ -123,7 +128,7 @@ void wrap_check(struct wrap *wrap)
 {
 	for (int part = PART_ARM_LEFT; part < PART_COUNT; part++)
 		if (wrap->scratch->opening[part] >= 0)
-			check_sleeve(wrap, part);
+			check_opening(wrap, part);
 		else
 			check_limb(wrap, part);
 	check_head(wrap);

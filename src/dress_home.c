@@ -138,7 +138,8 @@ static float trunk_middle_m(const struct body *body)
 	return 0.5f * (low_m + high_m);
 }
 
-/* All of it belongs on the trunk, and no mark lies on the trunk's upper half. */
+/* All of it belongs on the trunk, no mark lies on the trunk's upper half, and no leg has an opening
+ * of its own. */
 static bool is_skirt(const struct wrap *wrap)
 {
 	float middle_m = trunk_middle_m(wrap->cloth->body);
@@ -149,7 +150,9 @@ static bool is_skirt(const struct wrap *wrap)
 			if (on->point_m[i].y > middle_m)
 				return false;
 	}
-	return !lives_on(wrap, PART_HEAD, PART_LEG_RIGHT);
+	bool tubes = wrap->scratch->opening[PART_LEG_LEFT] >= 0 ||
+		     wrap->scratch->opening[PART_LEG_RIGHT] >= 0;
+	return !tubes && !lives_on(wrap, PART_HEAD, PART_LEG_RIGHT);
 }
 
 unsigned wrap_whole_parts(const struct wrap *wrap)

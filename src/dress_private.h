@@ -24,10 +24,10 @@ struct mark_line {
 struct wrap_scratch {
 	const struct body *full; /* to be dressed */
 	struct slim_body slim;   /* that the garment is laid and sewn round */
-	struct v3 toward[PART_COUNT]; /* where its arms point: to sleeves cut in one with the trunk */
-	int opening[PART_COUNT]; /* such a sleeve's: the vertex of rim that stands for it; -1: none */
-	int *rim;                /* per vertex (dress_sleeve.c) */
-	int8_t home[PIECES_MAX]; /* enum body_part that the piece belongs to, or PART_NONE */
+	int *rim; /* per vertex: one that stands for all of an opening; -1: on no rim */
+	int opening[PART_COUNT];      /* that one, of a tube cut in one with the trunk; -1: none */
+	struct v3 toward[PART_COUNT]; /* where the slim limb points so as to pass through */
+	int8_t home[PIECES_MAX];      /* enum body_part that the piece belongs to, or PART_NONE */
 	struct limb_shape limb[PART_COUNT];
 	bool in_tube[PIECES_MAX]; /* it goes round its limb along piece_gather.along */
 	float hem_m[PIECES_MAX];  /* how far along */
@@ -74,15 +74,15 @@ void wrap_find_homes(struct wrap *wrap);
  * skirt legs with no gap to hang into. */
 unsigned wrap_whole_parts(const struct wrap *wrap);
 
-/* Finds the openings of sleeves cut in one with the trunk's pieces (scratch->rim, opening, toward).
- * After wrap_grow_init (dress_sleeve.c). */
-void wrap_find_sleeves(struct wrap *wrap);
+/* Finds the openings of sleeves and trouser legs cut in one with the trunk's pieces (scratch->rim,
+ * opening, toward). After wrap_grow_init (dress_opening.c). */
+void wrap_find_openings(struct wrap *wrap);
 
-/* Is the arm in its sleeve that is cut in one with the trunk? A rim goes once round its bones. */
-bool wrap_in_sleeve(const struct wrap *wrap, int part);
+/* Does the rim of the opening go once round the limb's bones? */
+bool wrap_in_opening(const struct wrap *wrap, int part);
 
-/* Moves cloth along with arms that turn back while the slim body grows to a share. */
-void wrap_carry_sleeves(struct wrap *wrap, float share);
+/* Moves cloth along with limbs that turn back while the slim body grows to a share. */
+void wrap_carry(struct wrap *wrap, float share);
 
 /* Fills the cloth's piece_blown once it is sewn: what goes round something, being no disc. Open
  * cloth and a mask would be blown off. */

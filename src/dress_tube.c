@@ -93,10 +93,10 @@ static struct v3 clear_hand(const struct wrap *wrap, int home, struct v3 p_m, fl
 	return clear_by(limb, &at, p_m, hull_m + wrap->cloth->settings.offset_m);
 }
 
-/* So do sleeves cut in one with the trunk. */
+/* So do tubes cut in one with the trunk. */
 static struct v3 clear_bare(const struct wrap *wrap, struct v3 p_m, float of_hull)
 {
-	for (int part = PART_ARM_LEFT; part <= PART_ARM_RIGHT; part++)
+	for (int part = PART_ARM_LEFT; part < PART_COUNT; part++)
 		if (wrap->scratch->opening[part] >= 0)
 			p_m = clear_hand(wrap, part, p_m, of_hull);
 	return p_m;

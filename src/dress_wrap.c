@@ -127,7 +127,7 @@ static bool lay_marks(struct wrap *wrap)
 	if (wrap_seed(wrap) == 0)
 		return false;
 	wrap_grow_init(wrap);
-	wrap_find_sleeves(wrap);
+	wrap_find_openings(wrap);
 	if (body_slim_make(&wrap->scratch->slim, wrap->scratch->full, wrap->scratch->limb,
 			   wrap_whole_parts(wrap), wrap->scratch->toward))
 		turn_to(wrap->cloth, &wrap->scratch->slim.body);
@@ -342,7 +342,7 @@ static long fill(struct wrap *wrap)
 	}
 	if (wrap->progress % FILL_SWEEPS == 0) {
 		float share = fill_share(wrap);
-		wrap_carry_sleeves(wrap, share);
+		wrap_carry(wrap, share);
 		if (share < 1.0f)
 			body_slim_grow(&s->slim, s->full, share);
 		turn_to(wrap->cloth, share < 1.0f ? &s->slim.body : s->full);

@@ -62,11 +62,11 @@ static void test_outside(void)
 	struct wrap *wrap = &scene->session.wrap;
 	struct cloth *cloth = &scene->session.cloth;
 	CHECK(scene_wrap(scene));
-	CHECK(wrap_in_sleeve(wrap, PART_ARM_LEFT) && wrap_in_sleeve(wrap, PART_ARM_RIGHT));
+	CHECK(wrap_in_opening(wrap, PART_ARM_LEFT) && wrap_in_opening(wrap, PART_ARM_RIGHT));
 	for (int v = 0; v < cloth->garment->vertex_count; v++)
 		if (cloth->position_m[v].x > 0.2f)
 			cloth->position_m[v].z += 0.5f;
-	CHECK(!wrap_in_sleeve(wrap, PART_ARM_LEFT) && wrap_in_sleeve(wrap, PART_ARM_RIGHT));
+	CHECK(!wrap_in_opening(wrap, PART_ARM_LEFT) && wrap_in_opening(wrap, PART_ARM_RIGHT));
 	wrap->diagnoses.count = 0;
 	wrap_check(wrap);
 	CHECK(count_diagnoses(wrap, "limb-outside") == 1);

@@ -1,11 +1,15 @@
-/* Sleeves cut in one with front and back, as in a T-shirt drawn in a minute. Flat on the chest they
- * stand off to where they are cut, and arms that hang lower would pass below them. So the arms of
- * the slim body point where the sleeves do while it is laid and sewn, and take them along when they
- * come down. */
+/* Sleeves cut in one with front and back, as in a T-shirt drawn in a minute, and trouser legs. Flat
+ * on the chest sleeves stand off to where they are cut, and arms that hang lower would pass below
+ * them. So the limbs of the slim body point where the tubes do while it is laid and sewn, and take
+ * them along when they turn back. */
 #include "dress_private.h"
 
-static const float sleeve_least = 0.15f; /* of an arm's length, from its joint to the opening */
-static const float sleeve_most = 2.0f;
+/* From a limb's joint to its opening, of the limb's length: out (an arm's) or down (a leg's) at
+ * least, and at most. */
+static const float reach_least = 0.15f;
+static const float reach_most = 2.0f;
+static const float beside_least =
+	0.5f; /* of a hip joint's way from the middle: not a skirt's hem */
 
 /* ---- openings: rims of the garment as it is sewn ---- */
 
@@ -93,28 +97,30 @@ static struct v3 flat_place(const struct flat_frame *frame, struct v2 rest_m)
 	return v3_mad(p_m, frame->left, v2_cross(frame->u, way));
 }
 
-/* ---- which opening is an arm's ---- */
+/* ---- which opening is a limb's ---- */
 
-struct arm {
+struct limb {
+	bool leg;
 	struct v3 joint_m;
 	float length_m;
-	float out; /* -1 or 1: to its side in x */
+	float middle_m; /* x of the figure's middle, */
+	float out;      /* and -1 or 1: to the limb's side of it */
 };
 
-static bool find_arm(const struct body *body, int part, struct arm *arm)
+static bool find_limb(const struct body *body, int part, struct limb *limb)
 {
-	float middle_m = 0.5f * (body->low_m.x + body->high_m.x);
-	*arm = (struct arm){{0.0f, 0.0f, 0.0f}, 0.0f, 0.0f};
+	*limb = (struct limb){.leg = part >= PART_LEG_LEFT,
+			      .middle_m = 0.5f * (body->low_m.x + body->high_m.x)};
 	for (int b = 0; b < body->bone_count; b++) {
 		const struct bone *bone = &body->bone[b];
 		if ((int)bone->part != part)
 			continue;
-		if (arm->length_m == 0.0f)
-			arm->joint_m = bone->a_m;
-		arm->length_m += v3_distance(bone->a_m, bone->b_m);
+		if (limb->length_m == 0.0f)
+			limb->joint_m = bone->a_m;
+		limb->length_m += v3_distance(bone->a_m, bone->b_m);
 	}
-	arm->out = arm->joint_m.x > middle_m ? 1.0f : -1.0f;
-	return arm->length_m > 0.0f;
+	limb->out = limb->joint_m.x > limb->middle_m ? 1.0f : -1.0f;
+	return limb->length_m > 0.0f;
 }
 
 /* No piece of its own goes round this limb. */
@@ -146,31 +152,40 @@ static void sum_rims(struct wrap *wrap)
 	}
 }
 
-/* The opening that stands farthest off on the arm's side, no farther than the arm could reach; -1:
- * none does. */
-static int find_opening(const struct wrap *wrap, const struct arm *arm, struct v3 *middle_m)
+/* How far along the limb's side of the figure a place is; 0 and below: it is not there. */
+static float reach_of(const struct limb *limb, struct v3 at_m)
+{
+	float beside_m = limb->out * (at_m.x - limb->middle_m);
+	float joint_m = limb->out * (limb->joint_m.x - limb->middle_m);
+	if (limb->leg)
+		return beside_m > beside_least * joint_m ? limb->joint_m.y - at_m.y : 0.0f;
+	return beside_m - joint_m;
+}
+
+/* The opening that is farthest along, no farther than the limb could ever reach; -1: none is. */
+static int find_opening(const struct wrap *wrap, const struct limb *limb, struct v3 *middle_m)
 {
 	const struct wrap_scratch *s = wrap->scratch;
-	float far_m = sleeve_least * arm->length_m;
+	float far_m = reach_least * limb->length_m;
 	int found = -1;
-	*middle_m = arm->joint_m;
+	*middle_m = limb->joint_m;
 	for (int v = 0; v < wrap->cloth->garment->vertex_count; v++) {
 		if (s->rim[v] != v || s->count[v] == 0)
 			continue;
 		struct v3 at_m = v3_scale(s->sum_m[v], 1.0f / (float)s->count[v]);
-		struct v3 way = v3_sub(at_m, arm->joint_m);
-		if (way.x * arm->out < far_m ||
-		    sqrtf(way.x * way.x + way.y * way.y) > sleeve_most * arm->length_m)
+		struct v3 way = v3_sub(at_m, limb->joint_m);
+		way.z = 0.0f;
+		if (reach_of(limb, at_m) < far_m || v3_length(way) > reach_most * limb->length_m)
 			continue;
-		far_m = way.x * arm->out;
+		far_m = reach_of(limb, at_m);
 		*middle_m = at_m;
 		found = v;
 	}
 	return found;
 }
 
-/* Where the arm's bones are, so far from its joint. */
-static struct v3 on_arm(const struct body *body, int part, float reach_m)
+/* Where the limb's bones are, so far from its joint. */
+static struct v3 on_limb(const struct body *body, int part, float reach_m)
 {
 	struct v3 at_m = {0.0f, 0.0f, 0.0f};
 	for (int b = 0; b < body->bone_count; b++) {
@@ -200,40 +215,40 @@ static float half_width(const struct wrap *wrap, int opening, struct v3 middle_m
 	return sum_m / (float)int_max(s->count[opening], 1);
 }
 
-/* The direction of a sleeve, from the arm's joint to the opening's middle; none, (0, 0, 0), when
- * the arm passes through the opening's inner half as it is. */
-static struct v3 sleeve_way(const struct wrap *wrap, int part, const struct arm *arm, int opening,
-			    struct v3 middle_m)
+/* The direction of a tube, from the limb's joint to the opening's middle; none, (0, 0, 0), when the
+ * limb passes near enough to the middle as it is. */
+static struct v3 tube_way(const struct wrap *wrap, int part, const struct limb *limb, int opening,
+			  struct v3 middle_m)
 {
-	struct v3 to = v3_sub(middle_m, arm->joint_m);
+	struct v3 to = v3_sub(middle_m, limb->joint_m);
 	to.z = 0.0f; /* between front and back */
-	struct v3 from = v3_sub(on_arm(wrap->scratch->full, part, v3_length(to)), arm->joint_m);
+	struct v3 from = v3_sub(on_limb(wrap->scratch->full, part, v3_length(to)), limb->joint_m);
 	float aside_m = v3_distance(v3_scale(v3_normalize(from), v3_length(to)), to);
 	if (aside_m < 0.5f * half_width(wrap, opening, middle_m))
 		return (struct v3){0.0f, 0.0f, 0.0f};
 	return v3_normalize(to);
 }
 
-void wrap_find_sleeves(struct wrap *wrap)
+void wrap_find_openings(struct wrap *wrap)
 {
 	struct wrap_scratch *s = wrap->scratch;
 	find_rims(wrap);
 	sum_rims(wrap);
 	for (int part = 0; part < PART_COUNT; part++) {
-		struct arm arm;
+		struct limb limb;
 		struct v3 middle_m;
 		s->opening[part] = -1;
 		s->toward[part] = (struct v3){0.0f, 0.0f, 0.0f};
-		if ((part != PART_ARM_LEFT && part != PART_ARM_RIGHT) || !is_bare(wrap, part) ||
-		    !find_arm(s->full, part, &arm))
+		if (part < PART_ARM_LEFT || !is_bare(wrap, part) ||
+		    !find_limb(s->full, part, &limb))
 			continue;
-		s->opening[part] = find_opening(wrap, &arm, &middle_m);
+		s->opening[part] = find_opening(wrap, &limb, &middle_m);
 		if (s->opening[part] >= 0)
-			s->toward[part] = sleeve_way(wrap, part, &arm, s->opening[part], middle_m);
+			s->toward[part] = tube_way(wrap, part, &limb, s->opening[part], middle_m);
 	}
 }
 
-/* The angle round the arm's bones from one point to another. */
+/* The angle round the limb's bones from one point to another. */
 static float angle_round(const struct body *body, int part, struct v3 from_m, struct v3 to_m)
 {
 	struct beside a, b;
@@ -243,7 +258,7 @@ static float angle_round(const struct body *body, int part, struct v3 from_m, st
 	return angle_atan2(v3_dot(v3_cross(u, w), a.along), v3_dot(u, w));
 }
 
-bool wrap_in_sleeve(const struct wrap *wrap, int part)
+bool wrap_in_opening(const struct wrap *wrap, int part)
 {
 	const struct cloth *cloth = wrap->cloth;
 	const struct garment *garment = cloth->garment;
@@ -260,11 +275,14 @@ bool wrap_in_sleeve(const struct wrap *wrap, int part)
 	return float_abs(round_rad) > PI_F;
 }
 
-void wrap_carry_sleeves(struct wrap *wrap, float share)
+void wrap_carry(struct wrap *wrap, float share)
 {
 	struct cloth *cloth = wrap->cloth;
 	const struct slim_body *slim = &wrap->scratch->slim;
-	if (wrap->scratch->opening[PART_ARM_LEFT] < 0 && wrap->scratch->opening[PART_ARM_RIGHT] < 0)
+	bool any = false;
+	for (int part = 0; part < PART_COUNT; part++)
+		any = any || v3_length(wrap->scratch->toward[part]) > 0.0f;
+	if (!any)
 		return;
 	for (int v = 0; v < cloth->garment->vertex_count; v++) {
 		struct body_hit hit;
