@@ -99,7 +99,7 @@ void live_unplug(struct live *live, int device);
 int live_attach(struct live *live, int fd, const char *place, const struct tape_device *told);
 
 /* The same for a tablet that must be set up first where its descriptor says so, through
- * `transport`, which must outlive it. Tablets with the same `usb` are interfaces of one. */
+ * `transport`, which must outlive `live`. Tablets with the same `usb` are interfaces of one. */
 int live_attach_setup(struct live *live, int fd, const char *place, int usb,
 		      const struct tape_device *told, const struct pen_transport *transport);
 

@@ -19,7 +19,7 @@ struct live_setup *live_setup_open(live_setup_done *done, void *context);
 void live_setup_close(struct live_setup *setup);
 
 /* Sets up this tablet as soon as possible, by its USB address, or by `transport` where it is not
- * NULL (it must outlive the job). */
+ * NULL (it must outlive the thread). */
 void live_setup_start(struct live_setup *setup, int device, unsigned job,
 		      const struct live_node *node, const struct pen_transport *transport);
 

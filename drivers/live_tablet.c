@@ -141,39 +141,58 @@ static bool renewal_due_locked(struct live *live, int device, int64_t now_us)
 	return due;
 }
 
-/* This tablet's device sent what its default mode sends: whoever set it up does so again. */
-static void relapsed(struct live *live, int device)
+/* This tablet's device sent what its default mode sends: whoever set it up does so again. A bit for
+ * each such tablet. */
+static unsigned relapsed_locked(struct live *live, int device)
 {
 	int64_t now_us = live_clock_us();
-	for (int i = 0; i < LIVE_TABLETS_MAX; i++) {
-		int usb = live->tablet[device].usb;
-		if (i != device && (!usb || live->tablet[i].usb != usb))
-			continue;
-		pthread_mutex_lock(&live->lock);
-		bool due = renewal_due_locked(live, i, now_us);
-		pthread_mutex_unlock(&live->lock);
-		if (due)
-			live_setup_again(live->setup, i);
-	}
+	int usb = live->tablet[device].usb;
+	unsigned due = 0;
+	for (int i = 0; i < LIVE_TABLETS_MAX; i++)
+		if ((i == device || (usb && live->tablet[i].usb == usb)) &&
+		    renewal_due_locked(live, i, now_us))
+			due |= 1u << i;
+	return due;
 }
 
 /* Whether a report is the protocol's, or the default mode's: of a layout that the descriptor tells,
  * or a mouse's where all tablets of the family begin as one. */
-static void mode_watch(struct live *live, int device, const struct pen_layout *layout,
-		       const uint8_t *bytes)
+static unsigned mode_watch_locked(struct live *live, int device, const struct pen_layout *layout,
+				  const uint8_t *bytes)
 {
 	struct tablet *tablet = &live->tablet[device];
-	const struct pen_vendor *speaks = &tablet->layout[0].vendor;
-	bool speaking = tablet->layout_count && speaks->family != PEN_BY_DESCRIPTOR;
-	bool by_protocol = layout && layout->vendor.family != PEN_BY_DESCRIPTOR;
-	uint8_t default_id = speaking ? pen_family_rule(speaks->family)->default_id : 0;
-	if (by_protocol)
+	const struct pen_vendor *speaks = &live->told[device].speaks;
+	uint8_t default_id = speaks->family != PEN_BY_DESCRIPTOR
+				     ? pen_family_rule(speaks->family)->default_id
+				     : 0;
+	if (layout && layout->vendor.family != PEN_BY_DESCRIPTOR)
 		tablet->renewals = 0;
 	else if (layout || (default_id && bytes[0] == default_id))
-		relapsed(live, device);
+		return relapsed_locked(live, device);
+	return 0;
 }
 
 /* --- reading ---------------------------------------------------------------------------------- */
+
+/* Queues a pen's report. Returns the tablets to be set up again, a bit each. */
+static unsigned report_take(struct live *live, int device, int size, const uint8_t *bytes)
+{
+	struct tablet *tablet = &live->tablet[device];
+	struct pen_fields fields;
+	bool cut_off;
+	unsigned again = 0;
+	pthread_mutex_lock(&live->lock);
+	if (tablet->plugged) {
+		const struct pen_layout *layout = pen_report_read(
+			tablet->layout, tablet->layout_count, bytes, size, &tablet->memory, &fields,
+			&cut_off);
+		if (layout)
+			live_queue(live, device, size, bytes);
+		again = mode_watch_locked(live, device, layout, bytes);
+	}
+	pthread_mutex_unlock(&live->lock);
+	return again;
+}
 
 /* Takes what one tablet has ready. Only reports with a pen are kept: the same node may be a
  * keyboard too, and what is typed is nobody's business. */
@@ -182,8 +201,6 @@ void live_tablet_read(struct live *live, int device)
 	struct tablet *tablet = &live->tablet[device];
 	for (int i = 0; i < 64; i++) {
 		uint8_t bytes[REPORT_BYTES_MAX];
-		struct pen_fields fields;
-		bool cut_off;
 		ssize_t size = read(tablet->fd, bytes, sizeof bytes);
 		if (size < 0 && (errno == EAGAIN || errno == EINTR))
 			return;
@@ -191,18 +208,10 @@ void live_tablet_read(struct live *live, int device)
 			tablet_remove(live, device);
 			return;
 		}
-		pthread_mutex_lock(&live->lock);
-		const struct pen_layout *layout =
-			tablet->plugged
-				? pen_report_read(tablet->layout, tablet->layout_count, bytes,
-						  (int)size, &tablet->memory, &fields, &cut_off)
-				: NULL;
-		if (layout)
-			live_queue(live, device, (int)size, bytes);
-		bool plugged = tablet->plugged;
-		pthread_mutex_unlock(&live->lock);
-		if (plugged)
-			mode_watch(live, device, layout, bytes);
+		unsigned again = report_take(live, device, (int)size, bytes);
+		for (int k = 0; k < LIVE_TABLETS_MAX; k++)
+			if (again >> k & 1)
+				live_setup_again(live->setup, k);
 	}
 }
 

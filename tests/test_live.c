@@ -122,8 +122,9 @@ static void pair_open(int fds[2])
 
 static void check_set_up(struct live *live)
 {
-	struct endpoint endpoint = {0};
-	struct pen_transport transport = {.context = &endpoint, .string_get = endpoint_string};
+	static struct endpoint endpoint;
+	static const struct pen_transport transport = {.context = &endpoint,
+						       .string_get = endpoint_string};
 	struct tape_device told = of_hex(vendor_hex), other = of_hex(default_hex), back;
 	int vendor[2], pen[2];
 	pair_open(vendor);
@@ -170,8 +171,9 @@ static void check_set_up(struct live *live)
 /* A tablet that takes its time, and goes away meanwhile, keeps nobody waiting. */
 static void check_slow(struct live *live)
 {
-	struct endpoint endpoint = {0};
-	struct pen_transport transport = {.context = &endpoint, .string_get = endpoint_string};
+	static struct endpoint endpoint;
+	static const struct pen_transport transport = {.context = &endpoint,
+						       .string_get = endpoint_string};
 	struct tape_device slow = of_hex(vendor_hex), quick = mouse();
 	int vendor[2], pen[2];
 	atomic_store(&endpoint.slow_ms, 400);
@@ -206,8 +208,9 @@ static void check_refused(struct live *live)
 		"9501 8102 c0c0 0501 0902 a101 8509 0901 a100 0509 1901 2903 1500 2501 7501 9503"
 		"8102 9505 8103 0501 0930 0931 7510 9502 26ff7f 8102 050d 0930 26ff07 9501 8102 "
 		"c0c0";
-	struct endpoint endpoint = {0};
-	struct pen_transport transport = {.context = &endpoint, .string_get = endpoint_string};
+	static struct endpoint endpoint;
+	static const struct pen_transport transport = {.context = &endpoint,
+						       .string_get = endpoint_string};
 	struct tape_device told = of_hex(both_hex), back;
 	int pen[2];
 	atomic_store(&endpoint.refuses, true);
