@@ -7,7 +7,7 @@ record
 usb_plug "$folder/tape"
 expect 10 'device 0 is Kernel bench XP-Pen Deco L Pen' "$out/record"
 "$kitsuke" devices >"$out/devices"
-grep -q '28bd:0935  Kernel bench XP-Pen Deco L Pen, kernel driver hid-generic' "$out/devices" ||
+grep -q '28bd:0935  Kernel bench XP-Pen Deco L Pen, interface 0' "$out/devices" && grep -q 'driver      hid-generic' "$out/devices" ||
   fail "kitsuke devices does not name it: $(cat "$out/devices")"
 usb_go
 wait "$pen" || fail "the pen could not be played: $(cat "$out/pen")"
