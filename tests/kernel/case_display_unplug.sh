@@ -1,5 +1,6 @@
 #!/bin/sh
 # the screen is unplugged and plugged in again while the station runs
+# kernel: time-travel=inf-cpu
 . tests/kernel/guest.sh
 
 screen() {

@@ -1,5 +1,6 @@
 #!/bin/sh
 # two tablets at a time: both are read, and one visitor's stroke is not cut by the other's
+# kernel: time-travel=inf-cpu
 . tests/kernel/guest.sh
 
 if afterwards; then

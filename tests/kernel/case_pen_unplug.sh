@@ -1,5 +1,7 @@
 #!/bin/sh
 # a pen unplugged in mid-stroke and plugged in again: the stroke ends, the next visitor's outline is whole
+# seconds: 300
+# kernel: time-travel=inf-cpu
 . tests/kernel/guest.sh
 
 if afterwards; then
@@ -23,10 +25,10 @@ record_stop
 reports 0 <"$folder/recorded" | cmp "$folder/sent" - || fail "other reports came than were sent"
 
 {
-  cut_tape 0 3
-  echo '# unplug 0 at 000003.000000'
+  cut_tape 0 2
+  echo '# unplug 0 at 000002.000000'
   echo 'D: 0'
-  cut_tape 0 7.6 | grep '^E:' | later 4
+  cut_tape 0 7.6 | grep '^E:' | later 2
 } >"$out/tape"
 station
 "$tools/play" "$out/tape" || fail "the pen could not be played"

@@ -1,5 +1,7 @@
 #!/bin/sh
 # the bundled visit through uhid and gpio-sim: drawn, sewn, marked, and the shirt is on the body
+# seconds: 400
+# kernel: time-travel=inf-cpu
 . tests/kernel/guest.sh
 
 if afterwards; then

@@ -34,7 +34,7 @@ one() {
   begin=$(date +%s%N)
   # hostfs takes a path with a comma for two options; nothing else of the command line may hold a blank
   HOME=$folder timeout -k 5 "${seconds:-120}" "$kernel" mem=640M root=/dev/root rootfstype=hostfs \
-    rootflags=/ ro quiet panic=-1 con=null con0=null,fd:1 con1=null ssl=null video=Virtual-1:640x360 \
+    rootflags=/ ro quiet panic=-1 con=null con0=null,fd:1 con1=null ssl=null video=Virtual-1:640x360@20 \
     uml_dir="$folder/" umid=linux init="$here/init.sh" $(word_of kernel "$name") \
     BENCH_CASE="$name" BENCH_TREE="$tree" BENCH_OUT="$folder" BENCH_KITSUKE="$kitsuke" \
     BENCH_TOOLS="$tools" </dev/null >"$folder/console" 2>&1
