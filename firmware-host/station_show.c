@@ -38,6 +38,17 @@ bool station_choose_display(struct station *station)
 	return false;
 }
 
+/* Why there is no picture, when that has changed. */
+static void tell_dark(struct station *station)
+{
+	const char *reason = display_reason(station->display);
+	if (strcmp(station->dark, reason) == 0)
+		return;
+	snprintf(station->dark, sizeof station->dark, "%s", reason);
+	fprintf(stderr, "kitsuke: %s%s\n", reason[0] ? "no picture: " : "the picture is back",
+		reason);
+}
+
 /* GL's objects anew from what the processor has, when there is a new context. */
 static bool follow_context(struct station *station, char fault[200])
 {
@@ -71,7 +82,9 @@ bool station_open_display(struct station *station)
 		display_close(station->display);
 		station->display = NULL;
 	}
-	if (!station->display)
+	if (station->display)
+		tell_dark(station);
+	else
 		snprintf(station->fault, FAULT_BYTES, "%s", fault);
 	return station->display;
 }
@@ -99,16 +112,6 @@ void station_mount_pens(struct station *station)
 	}
 	station->mounted = station->generation;
 	pen_mount(&station->kiosk->pen, &mount);
-}
-
-static void tell_dark(struct station *station)
-{
-	const char *reason = display_reason(station->display);
-	if (strcmp(station->dark, reason) == 0)
-		return;
-	snprintf(station->dark, sizeof station->dark, "%s", reason);
-	fprintf(stderr, "kitsuke: %s%s\n", reason[0] ? "no picture: " : "the picture is back",
-		reason);
 }
 
 /* Without a display the visit goes on unseen. False: the display has failed for good. */
