@@ -85,8 +85,8 @@ PACKAGE_LIBS   = $(eval PACKAGE_LIBS := $(shell pkg-config --libs $(PACKAGES)))$
 CLANG_FORMAT  ?= clang-format
 
 # All processors, unless the caller said how many.
-JOBS = $(if $(filter -j%,$(MAKEFLAGS)),,-j$(shell nproc))
-SUBMAKE = +@$(MAKE) --no-print-directory $(JOBS)
+AT_ONCE = $(if $(filter -j%,$(MAKEFLAGS)),,-j$(shell nproc))
+SUBMAKE = +@$(MAKE) --no-print-directory $(AT_ONCE)
 # A short line per file instead of the command, unless V=1.
 SHORT = $(if $(V),,@echo '  $(1)' '$(patsubst $(B)/%,%,$(or $(2),$@))';)
 
@@ -181,7 +181,7 @@ fuzz:
 fuzzers: $(FUZZ)
 
 hash-matrix:
-	@MAKE='$(MAKE)' JOBS='$(JOBS)' tests/check-hash.sh $(build)/hash
+	@MAKE='$(MAKE)' tests/check-hash.sh $(build)/hash
 
 tremor: $(B)/kitsuke
 	@KITSUKE=$(B)/kitsuke tests/check-tremor.sh

@@ -270,20 +270,22 @@ static bool out_of_reach(const struct grid_box *box, int32_t x, int32_t y, int32
 	       box->low.y > y + reach;
 }
 
+static struct grid_box box_of(struct grid_point c, struct grid_point d)
+{
+	return (struct grid_box){{int_min(c.x, d.x), int_min(c.y, d.y)},
+				 {int_max(c.x, d.x), int_max(c.y, d.y)}};
+}
+
 /* A box round each block of segments: most of an outline is far from most of it. */
 static void find_boxes(const struct loop *loop, struct grid_box *box)
 {
 	for (int i = 0; i < loop->count; i++) {
-		struct grid_box *of = &box[i / BLOCK];
+		struct grid_box of = box_of(loop->point[i], loop_point(loop, i + 1));
+		struct grid_box *all = &box[i / BLOCK];
 		if (i % BLOCK == 0)
-			*of = (struct grid_box){loop->point[i], loop->point[i]};
-		for (int k = 0; k < 2; k++) {
-			struct grid_point p = loop_point(loop, i + k);
-			of->low.x = int_min(of->low.x, p.x);
-			of->low.y = int_min(of->low.y, p.y);
-			of->high.x = int_max(of->high.x, p.x);
-			of->high.y = int_max(of->high.y, p.y);
-		}
+			*all = of;
+		all->low = box_of(all->low, of.low).low;
+		all->high = box_of(all->high, of.high).high;
 	}
 }
 
@@ -299,8 +301,8 @@ static enum verdict judge_against_all(const struct loop *loop, int i, float leng
 			continue;
 		}
 		struct grid_point c = loop->point[k], d = loop_point(loop, k + 1);
-		if ((c.x < x - reach && d.x < x - reach) || (c.x > x + reach && d.x > x + reach) ||
-		    (c.y < y - reach && d.y < y - reach) || (c.y > y + reach && d.y > y + reach))
+		struct grid_box box = box_of(c, d);
+		if (out_of_reach(&box, x, y, reach))
 			continue;
 		int apart = k > i ? k - i : i - k;
 		if (apart <= 1 || apart == loop->count - 1)

@@ -100,7 +100,7 @@ struct plan {
 	int point_first[PIECES_MAX + 1];
 	struct grid_point *point; /* piece by piece, in outline order */
 	int *point_fraction;      /* the fraction that starts the segment from this point */
-	struct grid_box *box;     /* of every 16 segments of one piece */
+	struct grid_box *box;     /* of every block of segments of one piece */
 	int *sharp;               /* running count of sharp corners, per point of one piece */
 };
 
