@@ -105,10 +105,11 @@ static bool bus_stopped(void *context)
 	return setup_stopped(((struct bus *)context)->setup);
 }
 
-static bool strings_needed(const struct pen_recipe *recipe)
+/* Strings need the USB device's node, reports the hidraw node; neither is opened without need. */
+static bool steps_needed(const struct pen_recipe *recipe, bool strings)
 {
 	for (int i = 0; i < recipe->step_count; i++)
-		if (recipe->step[i].kind == PEN_STEP_STRING)
+		if ((recipe->step[i].kind == PEN_STEP_STRING) == strings)
 			return true;
 	return false;
 }
@@ -122,10 +123,12 @@ static bool bus_refused(const char *path, char reason[160])
 
 static bool bus_open(struct bus *bus, const struct live_node *node, char reason[160])
 {
-	bus->hidraw = open(node->path, O_RDWR | O_NONBLOCK | O_CLOEXEC);
-	if (bus->hidraw < 0)
-		return bus_refused(node->path, reason);
-	if (!strings_needed(&node->recipe))
+	if (steps_needed(&node->recipe, false)) {
+		bus->hidraw = open(node->path, O_RDWR | O_NONBLOCK | O_CLOEXEC);
+		if (bus->hidraw < 0)
+			return bus_refused(node->path, reason);
+	}
+	if (!steps_needed(&node->recipe, true))
 		return true;
 	char path[64];
 	snprintf(path, sizeof path, "/dev/bus/usb/%03d/%03d", node->usb_bus, node->usb_address);

@@ -170,6 +170,27 @@ static void check_words(void)
 	CHECK(!strstr(words_of(&node), "to mend"));
 }
 
+/* libwacom's data: sizes in whole inches, and what is a display. */
+static void check_model(int product, float width_mm, bool is_display)
+{
+	struct live_node node = {.told = {.vendor = 0x056a, .product = product}};
+	float width = 0.0f, height = 0.0f;
+	bool display = !is_display;
+	CHECK(live_model_find(&node, &width, &height, &display));
+	CHECK_NEAR(width, width_mm, 26.0);
+	CHECK(height > 0.0f && height < width && display == is_display);
+}
+
+static void check_models(void)
+{
+	struct live_node nobody = {.told = {.name = "no such tablet", .vendor = 0x1234}};
+	float width, height;
+	bool display;
+	check_model(0x0027, 223.5f, false); /* Intuos5 touch M */
+	check_model(0x0350, 345.6f, true);  /* Cintiq Pro 16 */
+	CHECK(!live_model_find(&nobody, &width, &height, &display));
+}
+
 static void check_attached(void)
 {
 	char *plain[] = {"devices"}, *wrong[] = {"devices", "what"};
@@ -248,6 +269,7 @@ int main(void)
 		return EXIT_FAILURE;
 	check_descriptor();
 	check_words();
+	check_models();
 	check_attached();
 	check_samples();
 	check_record();
