@@ -96,4 +96,7 @@ struct pen_model {
 extern const struct pen_model pen_models[];
 extern const int pen_model_count;
 
+bool pen_model_is(const struct pen_model *model, const struct pen_identity *identity,
+		  enum pen_family family);
+
 #endif

@@ -2,7 +2,7 @@
  *
  *   what a node is  --pen_identify-->      a recipe, or why there is none   (pen_identify.c)
  *   recipe          --pen_setup-->         what the tablet answered         (pen_setup.c)
- *   answers         --pen_identify_end-->  protocol and ranges
+ *   answers         --pen_identify_end-->  protocol and ranges              (pen_answers.c)
  *   raw report      --pen_family_read-->   fields                           (pen_vendor_*.c)
  *
  * Everything but pen_setup's injected transport is pure. Offsets and ranges are facts of the
