@@ -34,11 +34,11 @@ struct slim_body {
 void body_slim_init(struct slim_body *slim, struct arena *arena);
 
 /* The full body at its thinnest. `toward`: which way a limb points, straight from its joint, as a
- * unit vector for each part; (0, 0, 0), or NULL for all: as it is. `whole`: parts that are not drawn in, bits of enum body_part; legs
- * that are whole are joined, their inner sides meeting, so that a skirt lies on both as on one.
- * Triangles and parts are the full body's; no walk on it is trusted (body.clear: balls of radius
- * 0). Hands and feet are of no part (PART_COUNT): who asks for parts does not meet them. False: the
- * body has no limbs, nothing was made. */
+ * unit vector for each part; (0, 0, 0), or NULL for all: as it is. `whole`: parts that are not
+ * drawn in, bits of enum body_part; legs that are whole are joined, their inner sides meeting, so
+ * that a skirt lies on both as on one. Triangles and parts are the full body's; no walk on it is
+ * trusted (body.clear: balls of radius 0). Hands and feet are of no part (PART_COUNT): who asks for
+ * parts does not meet them. False: the body has no limbs, nothing was made. */
 bool body_slim_make(struct slim_body *slim, const struct body *full, const struct limb_shape *limb,
 		    unsigned whole, const struct v3 toward[PART_COUNT]);
 
