@@ -93,9 +93,9 @@ progress() {
     *) continue ;;
     esac
     if [ -t 2 ]; then
-      printf '\rkernel: %d of about 900 files ' "$count" >&2
+      printf '\rkernel: %d of about 1100 files ' "$count" >&2
     elif [ $((count % 100)) = 0 ]; then
-      say "$count of about 900 files"
+      say "$count of about 1100 files"
     fi
   done >"$work/log"
   [ ! -t 2 ] || echo >&2
