@@ -3,6 +3,8 @@
 
 #include "pen_filter.h"
 
+enum { CONTACT_REPORTS = 16 }; /* 15 ms at 1000 reports a second */
+
 #define FIRM 0.15f /* of the pressure: a hand that lifts has less */
 
 /* A full frame keeps its newest state: the last sample is the one that later frames build on. */
@@ -74,6 +76,8 @@ void pen_settle(struct pen *pen, int device, const struct pen_sample *sample, st
 	struct pen_device *d = &pen->device[device];
 	bool touch = sample->state == PEN_TOUCH;
 	pen_settle_time(pen, device, sample->time_us, input);
+	if (d->doubt == PEN_BEGUN && d->waiting_count >= CONTACT_REPORTS)
+		queue_give(pen, device, true, PEN_AWAY, input);
 	if (d->doubt == PEN_BEGUN && !touch) {
 		d->chatter++;
 		queue_give(pen, device, false, PEN_HOVER, input);

@@ -1,6 +1,6 @@
 /* Contacts that are too short, and lifts that are none. Private to the pen module.
  *
- *              touch                      15 ms in touch
+ *              touch             15 ms or 16 reports in touch
  *    OPEN -------------> BEGUN ----------------------------> DOWN
  *     ^  ^                 |                                 |  ^
  *     |  |   lift: chatter |                                 |  |
@@ -18,6 +18,9 @@
  * breaks off under pressure is doubted. (Of 130 lifts in recordings of real tablets four were
  * taken back within 30 ms, all under 23 % of the pressure or more, and three contacts lasted 10 ms
  * or less.)
+ *
+ * The reports that a late frame finds waiting count at one moment of it. So many that a quick
+ * tablet needs 15 ms for them are a contact whatever their times.
  */
 #ifndef PEN_SETTLE_H
 #define PEN_SETTLE_H

@@ -120,6 +120,22 @@ static void short_contacts_are_none(void)
 	CHECK(contacts() == 1);
 }
 
+/* A late frame's reports all count at one moment: a tap is one all the same. */
+static void late_taps_are_taps(void)
+{
+	int x = 8000;
+	start();
+	move(RANGE, 5, &x, 0);
+	int64_t frame_us = now_us;
+	for (int i = 0; i < 26; i++) { /* 130 ms of a quick hand */
+		now_us = frame_us;
+		send(RANGE | TIP, x, 400);
+	}
+	now_us = frame_us;
+	move(RANGE, 5, &x, 0);
+	CHECK(contacts() == 1 && touching() == 26 && pen.device[0].chatter == 0);
+}
+
 /* A switch that flickers under pressure, and a report out of range in the middle of a stroke. */
 static void split_contacts_are_joined(void)
 {
@@ -228,6 +244,7 @@ int main(void)
 {
 	a_contact_keeps_its_beginning();
 	short_contacts_are_none();
+	late_taps_are_taps();
 	split_contacts_are_joined();
 	true_lifts_are_lifts();
 	far_away_is_another_stroke();
