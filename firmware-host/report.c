@@ -1,5 +1,7 @@
 #include "report.h"
 
+#include "cloth_pleat.h"
+
 #include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -196,6 +198,25 @@ static void put_loops(json_t *report, const struct measure *measure)
 	put_int(report, "legs_in_legs", measure->legs_in_legs);
 }
 
+/* Says of each pleated seam what is sewn to what, and how long both are. */
+static void diagnose_pleats(json_t *diagnoses, const struct session *session)
+{
+	const struct garment *garment = &session->garment;
+	const struct piece *piece = session->document.pattern.piece;
+	struct pleats pleats;
+	char text[200];
+	for (int at = 0; session->cloth.welded && cloth_pleats(garment, &at, &pleats);) {
+		const struct seam_pair *pair = &garment->pair[pleats.first];
+		int a = garment->piece[pair->a], b = garment->piece[pair->b];
+		double longer_mm = (double)(pleats.excess_m / (1.0f - pleats.share)) * 1e3;
+		snprintf(text, sizeof text, "Pleated: %.0f mm of %s are sewn to %.0f mm of %s.",
+			 longer_mm, piece[pleats.side ? b : a].name,
+			 longer_mm * (double)pleats.share, piece[pleats.side ? a : b].name);
+		json_array_append_new(diagnoses, json_pack("{s:s, s:[], s:s}", "kind", "pleated",
+							   "marks", "text", text));
+	}
+}
+
 static void put_wrap(json_t *report, const struct wrap *wrap)
 {
 	put_real(report, "mark_error_mm_rms", (double)wrap->mark_error_rms_m * 1e3);
@@ -224,6 +245,7 @@ bool report_write(const struct session *session, struct frame_clock *clock, stru
 	put_work(report, session, clock);
 	put_measure(report, measure);
 	put_wrap(report, &session->wrap);
+	diagnose_pleats(json_object_get(report, "diagnoses"), session);
 	put_girths(report, measure);
 	put_loops(report, measure);
 	char *text = json_dumps(report, JSON_INDENT(2) | JSON_REAL_PRECISION(REPORT_REAL_DIGITS));

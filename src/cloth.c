@@ -73,6 +73,7 @@ void cloth_init(struct cloth *cloth, struct arena *arena)
 	cloth->flat = ARENA_ARRAY(arena, struct flat, GARMENT_EDGES_MAX);
 	struct cloth_scratch *s = ARENA_ARRAY(arena, struct cloth_scratch, 1);
 	s->rest = ARENA_ARRAY(arena, struct rest, GARMENT_TRIANGLES_MAX);
+	s->squeeze = ARENA_ARRAY(arena, struct squeeze, GARMENT_VERTICES_MAX);
 	s->turn = ARENA_ARRAY(arena, struct turn, GARMENT_TRIANGLES_MAX);
 	s->edge_first = ARENA_ARRAY(arena, int, GARMENT_VERTICES_MAX + 2);
 	s->edge_triangle = ARENA_ARRAY(arena, int, 3 * GARMENT_TRIANGLES_MAX);

@@ -1,4 +1,5 @@
 /* The constraints of a cloth: rest shapes, flatness stencils, neighbours. */
+#include "cloth_pleat.h"
 #include "cloth_private.h"
 #include "cloth_self.h"
 
@@ -18,9 +19,8 @@ static void build_rest(struct cloth *cloth)
 	struct cloth_scratch *s = cloth->scratch;
 	for (int t = 0; t < garment->triangle_count; t++) {
 		const int *v = garment->triangle[t].v;
-		struct v2 a = cloth_flat_m(cloth, v[0]);
-		struct v2 u1 = v2_sub(cloth_flat_m(cloth, v[1]), a);
-		struct v2 u2 = v2_sub(cloth_flat_m(cloth, v[2]), a);
+		struct v2 u1 = cloth_flat_way(cloth, t, v[0], v[1]);
+		struct v2 u2 = cloth_flat_way(cloth, t, v[0], v[2]);
 		float det = v2_cross(u1, u2);
 		det = det > 1e-10f ? det : 1e-10f;
 		struct v2 d1 = {u2.y / det, -u1.y / det}, d2 = {-u2.x / det, u1.x / det};
@@ -194,6 +194,7 @@ static uint64_t mesh_id(const struct cloth *cloth)
 	hash = MIX(hash, garment->rest_m, garment->vertex_count);
 	hash = MIX(hash, garment->weld, garment->vertex_count);
 	hash = MIX(hash, garment->triangle, garment->triangle_count);
+	hash = MIX(hash, garment->pair, garment->pair_count);
 	hash = MIX(hash, cloth->piece_gather, PIECES_MAX);
 	return hash | 1;
 }
@@ -211,8 +212,8 @@ static const struct {
 	void (*build)(struct cloth *cloth);
 	int units;
 } steps[] = {
-	{build_rest, 10},  {build_edges, 40}, {build_stars, 15},
-	{march_build, 15}, {cloth_order, 50}, {cloth_begin_levels, 5},
+	{cloth_build_pleats, 10}, {build_rest, 10},  {build_edges, 40},       {build_stars, 15},
+	{march_build, 15},        {cloth_order, 50}, {cloth_begin_levels, 5},
 };
 
 void cloth_take_gathers(struct cloth *cloth)

@@ -30,6 +30,11 @@ struct rest {
 	float metric[3], grain[3];
 };
 
+/* A symmetric map of the flat cloth, added to the identity: what pleats take up at a place. */
+struct squeeze {
+	float xx, xy, yy;
+};
+
 /* What is looked at of a triangle that has its turn in a sweep. */
 struct turn {
 	int v[3];
@@ -112,8 +117,9 @@ struct build {
 
 struct cloth_scratch {
 	struct build build;
-	struct rest *rest; /* per triangle */
-	struct turn *turn; /* per triangle, sliced */
+	struct rest *rest;       /* per triangle */
+	struct squeeze *squeeze; /* per vertex (cloth_pleat.c) */
+	struct turn *turn;       /* per triangle, sliced */
 
 	/* the order of work (cloth_order.c) */
 	int ranked_count; /* particles by neighbourhood */

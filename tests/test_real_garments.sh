@@ -76,6 +76,13 @@ for marks in tests/marks/penelope.marks guess; do
   below mark_error_mm_rms 5 penelope
 done
 
+# A coat's tail, pleated onto a belt little longer than half of it, does not stretch the belt.
+dress carlton_cisFemaleAdult34 tests/marks/carlton.marks mh_female_young_average
+equal arms_in_sleeves 2 carlton
+equal inverted_triangles 0 carlton
+below strain_max 0.25 carlton
+grep -q '"pleated"' "$folder/report.json" || fail "carlton: its pleats are not reported"
+
 # A narrow one does not hang into the gap between a toy's legs.
 dress penelope_cisMaleAdult42 tests/marks/penelope.marks kenney_charactermedium
 below inverted_triangles 20 penelope
