@@ -1,15 +1,17 @@
-/* The thread that reads tablets, and the queue between it and the frame loop; see live.h.
+/* The threads that read tablets and search for them, and the queue between them and the frame loop;
+ * see live.h.
  *
  * One thread polls all open tablets: hidraw keeps 64 reports (128 ms at 500 Hz) and drops the
- * newest when nobody reads, so reading must not wait for a frame. udev tells of new nodes after its
- * rules have set their permissions; where there is no udev, and for a permission that is mended
- * later, the thread looks again every second. */
+ * newest when nobody reads, so reading waits for no frame and no search. Another searches: udev
+ * tells of new nodes after its rules have set their permissions; where there is no udev, and for a
+ * permission that is mended later, it looks again every second. */
 #include "live_private.h"
 
 #include <fcntl.h>
 #include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <sys/eventfd.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -119,47 +121,53 @@ long live_lost(struct live *live)
 	return lost;
 }
 
-/* --- the thread ------------------------------------------------------------------------------- */
+/* --- the threads ------------------------------------------------------------------------------ */
 
-/* Waits for the tablets, for udev, for a wake-up, at most a second. False: to be stopped. */
-static bool wait_and_read(struct live *live, bool *search)
+/* Waits for the tablets, and for another one to be opened. False: to be stopped. */
+static bool wait_and_read(struct live *live)
 {
 	struct pollfd fds[2 + LIVE_TABLETS_MAX];
-	fds[0] = (struct pollfd){live->wake[0], POLLIN, 0};
-	fds[1] = (struct pollfd){live->monitor ? udev_monitor_get_fd(live->monitor) : -1, POLLIN,
-				 0};
+	fds[0] = (struct pollfd){live->stop, POLLIN, 0};
+	fds[1] = (struct pollfd){live->opened, POLLIN, 0};
 	pthread_mutex_lock(&live->lock);
 	for (int i = 0; i < LIVE_TABLETS_MAX; i++)
 		fds[2 + i] = (struct pollfd){live->tablet[i].fd, POLLIN, 0};
 	pthread_mutex_unlock(&live->lock);
-	poll(fds, COUNT_OF(fds), RESCAN_MS);
-	char byte = 'a';
-	if (fds[0].revents && read(live->wake[0], &byte, 1) == 1 && byte == 'q')
-		return false;
-	if (fds[1].revents) {
-		struct udev_device *device = udev_monitor_receive_device(live->monitor);
-		udev_device_unref(device);
-		*search = true;
-	}
+	poll(fds, COUNT_OF(fds), -1);
+	eventfd_t opened;
+	if (fds[1].revents)
+		eventfd_read(live->opened, &opened);
 	for (int i = 0; i < LIVE_TABLETS_MAX; i++)
 		if (fds[2 + i].revents)
 			live_tablet_read(live, i);
-	return true;
+	return !fds[0].revents;
 }
 
-static void *thread_main(void *argument)
+static void *reader_main(void *argument)
 {
-	struct live *live = argument;
-	int64_t searched_us = 0;
-	bool search = true;
-	do {
-		int64_t now_us = live_clock_us();
-		if (search || now_us - searched_us >= RESCAN_MS * INT64_C(1000)) {
-			live_tablets_search(live);
-			searched_us = now_us;
-			search = false;
-		}
-	} while (wait_and_read(live, &search));
+	while (wait_and_read(argument))
+		;
+	return NULL;
+}
+
+/* Waits for udev, at most a second. False: to be stopped. */
+static bool wait_for_nodes(struct live *live)
+{
+	struct pollfd fds[] = {
+		{live->stop, POLLIN, 0},
+		{live->monitor ? udev_monitor_get_fd(live->monitor) : -1, POLLIN, 0},
+	};
+	poll(fds, COUNT_OF(fds), RESCAN_MS);
+	if (fds[1].revents)
+		udev_device_unref(udev_monitor_receive_device(live->monitor));
+	return !fds[0].revents;
+}
+
+static void *searcher_main(void *argument)
+{
+	do
+		live_tablets_search(argument);
+	while (wait_for_nodes(argument));
 	return NULL;
 }
 
@@ -184,13 +192,31 @@ static void live_free(struct live *live)
 			close(live->tablet[i].fd);
 	udev_monitor_unref(live->monitor);
 	udev_unref(live->udev);
-	if (live->wake[0] >= 0) {
-		close(live->wake[0]);
-		close(live->wake[1]);
-	}
+	if (live->stop >= 0)
+		close(live->stop);
+	if (live->opened >= 0)
+		close(live->opened);
 	pthread_mutex_destroy(&live->lock);
 	free(live->nodes);
 	free(live);
+}
+
+static void stop(struct live *live, int threads)
+{
+	eventfd_write(live->stop, 1);
+	for (int i = 0; i < threads; i++)
+		pthread_join(live->thread[i], NULL);
+}
+
+/* The reader and the searcher. False: the system has no threads left. */
+static bool start(struct live *live)
+{
+	if (pthread_create(&live->thread[0], NULL, reader_main, live))
+		return false;
+	if (!pthread_create(&live->thread[1], NULL, searcher_main, live))
+		return true;
+	stop(live, 1);
+	return false;
 }
 
 struct live *live_open(const struct board *board, int64_t start_us)
@@ -200,7 +226,8 @@ struct live *live_open(const struct board *board, int64_t start_us)
 		return NULL;
 	live->board = *board;
 	live->start_us = start_us;
-	live->wake[0] = live->wake[1] = -1;
+	live->stop = eventfd(0, EFD_CLOEXEC);
+	live->opened = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
 	pthread_mutex_init(&live->lock, NULL);
 	for (int i = 0; i < LIVE_TABLETS_MAX; i++)
 		live->tablet[i].fd = -1;
@@ -208,8 +235,7 @@ struct live *live_open(const struct board *board, int64_t start_us)
 	live->nodes = calloc(LIVE_NODES_MAX, sizeof *live->nodes);
 	live->setup = live_setup_open(live_tablet_set_up, live);
 	monitor_open(live);
-	if (!live->nodes || !live->setup || pipe2(live->wake, O_CLOEXEC) < 0 ||
-	    pthread_create(&live->thread, NULL, thread_main, live)) {
+	if (!live->nodes || !live->setup || live->stop < 0 || live->opened < 0 || !start(live)) {
 		live_free(live);
 		return NULL;
 	}
@@ -220,7 +246,6 @@ void live_close(struct live *live)
 {
 	if (!live)
 		return;
-	if (write(live->wake[1], "q", 1) == 1)
-		pthread_join(live->thread, NULL);
+	stop(live, COUNT_OF(live->thread));
 	live_free(live);
 }

@@ -1,4 +1,4 @@
-/* What live.c (queue, thread) and live_tablet.c (tablets) share. */
+/* What live.c (queue, threads) and live_tablet.c (tablets) share. */
 #ifndef LIVE_PRIVATE_H
 #define LIVE_PRIVATE_H
 
@@ -33,13 +33,13 @@ struct tablet {
 };
 
 struct live {
-	pthread_t thread;
-	int wake[2]; /* a byte stops the thread */
+	pthread_t thread[2]; /* reader, searcher */
+	int stop, opened;    /* event descriptors: both threads end; a tablet was opened */
 	int64_t start_us;
 	struct board board;
 	struct udev *udev;
 	struct udev_monitor *monitor;
-	struct live_node *nodes; /* the thread's */
+	struct live_node *nodes; /* the searcher's */
 	struct live_setup *setup;
 
 	pthread_mutex_t lock; /* for all below */

@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
+#include <sys/eventfd.h>
 #include <unistd.h>
 
 enum {
@@ -74,6 +75,7 @@ static int tablet_add(struct live *live, int fd, bool own, const struct live_nod
 			tablet_plug_locked(live, device);
 	}
 	pthread_mutex_unlock(&live->lock);
+	eventfd_write(live->opened, 1);
 	return device;
 }
 
@@ -223,10 +225,7 @@ static int attach(struct live *live, int fd, struct live_node *node, const char 
 	node->told = *told;
 	snprintf(node->path, sizeof node->path, "%s", place);
 	snprintf(node->place, sizeof node->place, "%s", place);
-	int device = tablet_add(live, fd, false, node, transport);
-	if (device >= 0 && write(live->wake[1], "a", 1) < 0)
-		return -1;
-	return device;
+	return tablet_add(live, fd, false, node, transport);
 }
 
 int live_attach(struct live *live, int fd, const char *place, const struct tape_device *told)
