@@ -68,7 +68,7 @@ LIB   := $(filter-out $(MAIN),$(foreach d,src drivers ui firmware-host,$(call so
 TESTS := $(patsubst %.c,$(B)/%,$(wildcard tests/test_*.c))
 # Whole visits with sanitizers are the hash matrix's part.
 ifeq ($(config),sanitize)
-TESTS := $(filter-out $(addprefix $(B)/tests/,test_tapes test_drag_ways test_layers),$(TESTS))
+TESTS := $(filter-out $(addprefix $(B)/tests/,test_tapes test_drag_ways test_layers test_examples),$(TESTS))
 endif
 TEST_SCRIPTS := $(filter-out $(if $(filter sanitize,$(config)),tests/test_replay.sh),$(wildcard tests/test_*.sh))
 BENCH := $(patsubst %.c,$(B)/%,$(wildcard tests/bench_*.c))
