@@ -70,7 +70,7 @@ TESTS := $(patsubst %.c,$(B)/%,$(wildcard tests/test_*.c))
 ifeq ($(config),sanitize)
 TESTS := $(filter-out $(addprefix $(B)/tests/,test_tapes test_drag_ways test_layers test_examples),$(TESTS))
 endif
-TEST_SCRIPTS := $(filter-out $(if $(filter sanitize,$(config)),tests/test_replay.sh),$(wildcard tests/test_*.sh))
+TEST_SCRIPTS := $(filter-out $(if $(filter sanitize,$(config)),tests/test_replay.sh tests/test_real_garments.sh),$(wildcard tests/test_*.sh))
 BENCH := $(patsubst %.c,$(B)/%,$(wildcard tests/bench_*.c))
 FUZZ  := $(patsubst %.c,$(B)/%,$(wildcard tests/fuzz_*.c))
 TOOLS := $(patsubst %.c,$(B)/%,$(wildcard tests/hand.c tests/measure_sections.c tests/drape.c tests/contact.c))
