@@ -66,11 +66,12 @@ PURE := $(CORE) $(wildcard drivers/tape*.c) \
 MAIN  := firmware-host/main.c
 LIB   := $(filter-out $(MAIN),$(foreach d,src drivers ui firmware-host,$(call sources,$d)))
 TESTS := $(patsubst %.c,$(B)/%,$(wildcard tests/test_*.c))
+TEST_SCRIPTS := $(wildcard tests/test_*.sh)
 # Whole visits with sanitizers are the hash matrix's part.
 ifeq ($(config),sanitize)
 TESTS := $(filter-out $(addprefix $(B)/tests/,test_tapes test_drag_ways test_layers test_examples),$(TESTS))
+TEST_SCRIPTS := $(filter-out $(addprefix tests/test_,replay.sh real_garments.sh wrap_marks.sh),$(TEST_SCRIPTS))
 endif
-TEST_SCRIPTS := $(filter-out $(if $(filter sanitize,$(config)),tests/test_replay.sh tests/test_real_garments.sh),$(wildcard tests/test_*.sh))
 BENCH := $(patsubst %.c,$(B)/%,$(wildcard tests/bench_*.c))
 FUZZ  := $(patsubst %.c,$(B)/%,$(wildcard tests/fuzz_*.c))
 TOOLS := $(patsubst %.c,$(B)/%,$(wildcard tests/hand.c tests/measure_sections.c tests/drape.c tests/contact.c))
