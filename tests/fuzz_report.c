@@ -2,21 +2,9 @@
  * The input: one byte of size, that many bytes of descriptor, then reports with a byte of size and
  * a byte of milliseconds each. */
 #include "pen.h"
+#include "samples.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void samples_check(const struct frame_input *input)
-{
-	MUST(input->sample_count >= 0 && input->sample_count <= FRAME_SAMPLES_MAX);
-	for (int i = 0; i < input->sample_count; i++) {
-		const struct pen_sample *s = &input->sample[i];
-		MUST(s->position_px.x >= 0.0f && s->position_px.x < 1920.0f);
-		MUST(s->position_px.y >= 0.0f && s->position_px.y < 1080.0f);
-		MUST(s->pressure >= 0.0f && s->pressure <= 1.0f);
-		MUST(float_abs(s->tilt_rad.x) < 1.6f && float_abs(s->tilt_rad.y) < 1.6f);
-		MUST(s->state == PEN_TOUCH || s->pressure <= 0.0f);
-	}
-}
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
@@ -42,11 +30,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 		reports.count = 1;
 		reports.report[0] = report;
 		pen_read(&pen, &reports, time_us, &input);
-		samples_check(&input);
+		samples_check(&input, 1920, 1080);
 	}
 	input = (struct frame_input){0};
 	pen_unplugged(&pen, 0, &input);
-	samples_check(&input);
+	samples_check(&input, 1920, 1080);
 	MUST(pen.device[0].state == PEN_AWAY);
 	return 0;
 }

@@ -2,20 +2,9 @@
  * finite. The input: the family, three ranges, then reports with a byte of size and one of
  * milliseconds. */
 #include "pen.h"
+#include "samples.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void samples_check(const struct frame_input *input)
-{
-	for (int i = 0; i < input->sample_count; i++) {
-		const struct pen_sample *s = &input->sample[i];
-		MUST(s->position_px.x >= 0.0f && s->position_px.x < 1920.0f);
-		MUST(s->position_px.y >= 0.0f && s->position_px.y < 1080.0f);
-		MUST(s->pressure >= 0.0f && s->pressure <= 1.0f);
-		MUST(float_abs(s->tilt_rad.x) < 1.6f && float_abs(s->tilt_rad.y) < 1.6f);
-		MUST(s->state == PEN_TOUCH || s->pressure <= 0.0f);
-	}
-}
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
@@ -56,10 +45,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 		at += bytes;
 		input = (struct frame_input){0};
 		pen_read(&pen, &reports, time_us, &input);
-		samples_check(&input);
+		samples_check(&input, 1920, 1080);
 	}
 	input = (struct frame_input){0};
 	pen_unplugged(&pen, 0, &input);
-	samples_check(&input);
+	samples_check(&input, 1920, 1080);
 	return 0;
 }
