@@ -134,12 +134,10 @@ static bool is_bare(const struct wrap *wrap, int part)
 
 /* The middles of the openings, where flat cloth has them, at the vertices that stand for them: sums
  * in sum_m, their numbers in count. */
-static void sum_rims(struct wrap *wrap)
+static void sum_rims(struct wrap *wrap, const struct flat_frame frame[PIECES_MAX])
 {
 	struct wrap_scratch *s = wrap->scratch;
 	const struct garment *garment = wrap->cloth->garment;
-	struct flat_frame frame[PIECES_MAX];
-	find_frames(wrap, frame);
 	memset(s->sum_m, 0, (size_t)garment->vertex_count * sizeof *s->sum_m);
 	memset(s->count, 0, (size_t)garment->vertex_count * sizeof *s->count);
 	for (int v = 0; v < garment->vertex_count; v++) {
@@ -200,13 +198,12 @@ static struct v3 on_limb(const struct body *body, int part, float reach_m)
 }
 
 /* Half of an opening's half width: the mean distance of its vertices from its middle. */
-static float half_width(const struct wrap *wrap, int opening, struct v3 middle_m)
+static float half_width(const struct wrap *wrap, const struct flat_frame frame[PIECES_MAX],
+			int opening, struct v3 middle_m)
 {
 	const struct wrap_scratch *s = wrap->scratch;
 	const struct garment *garment = wrap->cloth->garment;
-	struct flat_frame frame[PIECES_MAX];
 	float sum_m = 0.0f;
-	find_frames(wrap, frame);
 	for (int v = 0; v < garment->vertex_count; v++) {
 		const struct flat_frame *on = &frame[garment->piece[v]];
 		if (s->rim[v] == opening && on->known)
@@ -217,14 +214,14 @@ static float half_width(const struct wrap *wrap, int opening, struct v3 middle_m
 
 /* The direction of a tube, from the limb's joint to the opening's middle; none, (0, 0, 0), when the
  * limb passes near enough to the middle as it is. */
-static struct v3 tube_way(const struct wrap *wrap, int part, const struct limb *limb, int opening,
-			  struct v3 middle_m)
+static struct v3 tube_way(const struct wrap *wrap, const struct flat_frame frame[PIECES_MAX],
+			  int part, const struct limb *limb, struct v3 middle_m)
 {
 	struct v3 to = v3_sub(middle_m, limb->joint_m);
 	to.z = 0.0f; /* between front and back */
 	struct v3 from = v3_sub(on_limb(wrap->scratch->full, part, v3_length(to)), limb->joint_m);
 	float aside_m = v3_distance(v3_scale(v3_normalize(from), v3_length(to)), to);
-	if (aside_m < 0.5f * half_width(wrap, opening, middle_m))
+	if (aside_m < 0.5f * half_width(wrap, frame, wrap->scratch->opening[part], middle_m))
 		return (struct v3){0.0f, 0.0f, 0.0f};
 	return v3_normalize(to);
 }
@@ -232,8 +229,10 @@ static struct v3 tube_way(const struct wrap *wrap, int part, const struct limb *
 void wrap_find_openings(struct wrap *wrap)
 {
 	struct wrap_scratch *s = wrap->scratch;
+	struct flat_frame frame[PIECES_MAX];
 	find_rims(wrap);
-	sum_rims(wrap);
+	find_frames(wrap, frame);
+	sum_rims(wrap, frame);
 	for (int part = 0; part < PART_COUNT; part++) {
 		struct limb limb;
 		struct v3 middle_m;
@@ -244,7 +243,7 @@ void wrap_find_openings(struct wrap *wrap)
 			continue;
 		s->opening[part] = find_opening(wrap, &limb, &middle_m);
 		if (s->opening[part] >= 0)
-			s->toward[part] = tube_way(wrap, part, &limb, s->opening[part], middle_m);
+			s->toward[part] = tube_way(wrap, frame, part, &limb, middle_m);
 	}
 }
 
