@@ -44,9 +44,9 @@ enum pen_decoded pen_graphire_read(const uint8_t *bytes, int size, const struct 
 {
 	enum { PEN, ERASER };
 	enum pen_decoded fits = length_check(bytes, size, 2, 8);
-	int tool = bytes[1 < size ? 1 : 0] >> 5 & 3;
 	if (fits != PEN_DECODED)
 		return fits;
+	int tool = bytes[1] >> 5 & 3;
 	bool near = bytes[1] & 0x80, was_near = memory->near;
 	memory->near = near && tool <= ERASER;
 	if (!memory->near && !was_near)
