@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <string.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
 
@@ -80,9 +81,10 @@ static void check_nobody(const char *name)
 
 int main(void)
 {
-	char folder[] = "/tmp/service-XXXXXX", path[64], abstract[64];
+	char folder[64], path[96], abstract[64];
 	char long_name[200];
-	CHECK(mkdtemp(folder));
+	snprintf(folder, sizeof folder, "/tmp/kitsuke-service-%d", (int)getpid());
+	CHECK(mkdir(folder, 0700) == 0);
 	snprintf(path, sizeof path, "%s/notify", folder);
 	snprintf(abstract, sizeof abstract, "@kitsuke-test-%d", (int)getpid());
 	check_words(path);
