@@ -281,6 +281,21 @@ static void buttons_collect(const struct pen *pen, struct frame_input *input)
 		input->buttons_held |= pen->device[i].buttons_held;
 }
 
+/* What a device did is forgotten with it: plugged in again it is as it was described, live and on
+ * a tape, which describes it once. */
+static void device_forget(struct pen_device *d)
+{
+	d->memory = (struct pen_memory){0};
+	d->heard = d->last = (struct pen_sample){0};
+	d->last_us = d->doubt_us = 0;
+	d->contact_reports = 0;
+	memset(d->nib, 0, sizeof d->nib);
+	d->raw_mm = d->filtered_mm = d->speed_mm_s = d->suspect_mm = d->lifted_mm = (struct v2){0};
+	d->suspected = d->placed = false;
+	d->state = PEN_AWAY;
+	d->buttons_held = 0;
+}
+
 void pen_unplugged(struct pen *pen, int device, struct frame_input *input)
 {
 	MUST(device >= 0 && device < PEN_DEVICES_MAX);
@@ -288,7 +303,7 @@ void pen_unplugged(struct pen *pen, int device, struct frame_input *input)
 	if (d->kind == DEVICE_PEN && d->heard.state != PEN_AWAY)
 		sample_away(pen, device, d->heard.time_us, input);
 	pen_settle_end(pen, device, input);
-	d->buttons_held = 0;
+	device_forget(d);
 	buttons_collect(pen, input);
 }
 

@@ -21,10 +21,20 @@ struct pen_vendor tape_speaks(const struct tape_device *told, float *width_mm, f
 	return speaks;
 }
 
+/* As a tape has it, in hundredths, so that a size counts the same live and on the tape. */
+static float as_written_mm(float mm)
+{
+	if (!(mm >= 1.0f && mm < 10000.0f))
+		return mm;
+	int hundredths = (int)(mm * 100.0f + 0.5f);
+	return (float)(hundredths / 100) + (float)(hundredths % 100) / 100.0f;
+}
+
 void tape_learn(struct pen *pen, int device, const struct tape_device *told)
 {
 	struct pen_vendor speaks = told->speaks;
-	float width_mm = told->width_mm, height_mm = told->height_mm, width, height;
+	float width_mm = as_written_mm(told->width_mm), height_mm = as_written_mm(told->height_mm);
+	float width, height;
 	pen_describe(pen, device, told->descriptor, told->descriptor_size);
 	if (speaks.family == PEN_BY_DESCRIPTOR) {
 		speaks = tape_speaks(told, &width, &height);
