@@ -75,6 +75,11 @@ void live_close(struct live *live);
 /* Adds what came since the last call. What does not fit waits for the next frame. */
 struct live_changes live_collect(struct live *live, struct frame_reports *reports);
 
+/* Gives a frame's reports the times that they count at, in the program's time: spread over the
+ * frame as they were read between two calls of live_collect, at since_us and now_us on the reports'
+ * clock. What was read over more time than a frame has is pressed together. */
+void live_stamp(struct frame_reports *reports, int frame, int64_t since_us, int64_t now_us);
+
 /* Name, ids, size and descriptor of a device as it was last plugged in. */
 void live_device(struct live *live, int device, struct tape_device *told);
 

@@ -5,6 +5,11 @@
 
 #define SECOND_US INT64_C(1000000)
 
+int64_t tape_frame_us(int frame)
+{
+	return (frame * SECOND_US + FRAME_RATE_HZ - 1) / FRAME_RATE_HZ;
+}
+
 unsigned tape_frame(const struct tape *tape, int frame, size_t *cursor,
 		    struct frame_reports *reports)
 {
@@ -128,4 +133,10 @@ int tape_write_unplug(char *line, int64_t time_us, int device)
 {
 	return snprintf(line, TAPE_LINE_MAX, "# unplug %d at %06lld.%06lld\n", device,
 			(long long)(time_us / SECOND_US), (long long)(time_us % SECOND_US));
+}
+
+int tape_write_end(char *line, int frames, uint64_t hash)
+{
+	return snprintf(line, TAPE_LINE_MAX, "# frames %d\n# hash %016llx\n", frames,
+			(unsigned long long)hash);
 }

@@ -13,6 +13,7 @@
  *   N: name   P: phys   I: bus vid pid
  *   E: 000001.230000 10 02 e0 ...
  *   # unplug 0 at 000002.000000
+ *   # hash 4338e97ce0e20eaa   of the state at the end, where the station recorded its own visit
  *
  * An event at time t belongs to frame floor(t * 60).
  */
@@ -67,6 +68,9 @@ void tape_free(struct tape *tape);
 unsigned tape_frame(const struct tape *tape, int frame, size_t *cursor,
 		    struct frame_reports *reports);
 
+/* The first microsecond of a frame. */
+int64_t tape_frame_us(int frame);
+
 /* The lines of a tape. Each call writes one line with its end and a 0 after it, and returns the
  * length; `line` must hold TAPE_LINE_MAX bytes.
  *
@@ -80,5 +84,6 @@ int tape_write_device(char *line, int device, const struct tape_device *descript
 int tape_write_select(char *line, int device);
 int tape_write_event(char *line, int64_t time_us, int size, const uint8_t *bytes);
 int tape_write_unplug(char *line, int64_t time_us, int device);
+int tape_write_end(char *line, int frames, uint64_t hash);
 
 #endif

@@ -29,6 +29,8 @@ static void help_commands(void)
 	     "  kitsuke check FILE...         are bodies, patterns, journals, tapes, boards "
 	     "sound?\n"
 	     "  kitsuke record --out TAPE     records attached tablets and buttons\n"
+	     "  kitsuke record --visits [--board FILE]\n"
+	     "                                the station; each visit's tape beside its journal\n"
 	     "  kitsuke devices [--descriptor FILE]\n"
 	     "                                what is attached, and what a descriptor yields\n"
 	     "  kitsuke calibrate [BOARD]     how much work fits a frame of this machine; into "
@@ -288,6 +290,7 @@ static void help_tape(void)
 	     "  N: name                        I: bus vendor product\n"
 	     "  E: 000001.230000 10 02 e0 ...  report: seconds, length, bytes\n"
 	     "  # unplug 0 at 000002.000000\n"
+	     "  # hash 4338e97ce0e20eaa        of the state at the end, if it is a visit's own\n"
 	     "\n"
 	     "The three buttons are a device of their own whose report is one byte: bit 0 WRAP,\n"
 	     "bit 1 PIN, bit 2 RELAX. An event at time t belongs to frame floor(60 t).");

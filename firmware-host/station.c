@@ -77,6 +77,7 @@ static void open_journal(struct station *station)
 		*slash = '/';
 	}
 	station->journal = -1;
+	station->tape_path[0] = 0;
 	gmtime_r(&now, &parts);
 	char name[64];
 	strftime(name, sizeof name, "visit-%Y%m%d-%H%M%S.kitsuke", &parts);
@@ -86,7 +87,9 @@ static void open_journal(struct station *station)
 		if (station->journal < 0)
 			snprintf(fault, sizeof fault, "%.200s: %s", path, strerror(errno));
 	}
-	if (station->journal < 0)
+	if (station->journal >= 0)
+		station_record_begin(station, path);
+	else
 		fprintf(stderr, "kitsuke: this visit is not saved: %s\n", fault);
 }
 
@@ -170,20 +173,6 @@ static bool open_station(struct station *station)
 
 /* ---- one frame ---- */
 
-/* Reports are stamped by the wall's clock; the frame that takes them says when they count, as it
- * will on a tape. */
-static void stamp(struct station *station)
-{
-	int64_t frame_us = (int64_t)station->kiosk->frame * 1000000 / FRAME_RATE_HZ;
-	for (int i = 0; i < station->reports->count; i++) {
-		struct raw_report *report = &station->reports->report[i];
-		int64_t time_us = report->time_us + station->opened_us - station->start_us;
-		time_us = time_us > frame_us ? time_us : frame_us;
-		report->time_us = time_us < frame_us + FRAME_US - 1 ? time_us
-								    : frame_us + FRAME_US - 1;
-	}
-}
-
 static unsigned collect(struct station *station)
 {
 	unsigned unplugged = 0;
@@ -199,7 +188,9 @@ static unsigned collect(struct station *station)
 	if (station->kind == DISPLAY_WINDOW && station->display &&
 	    !display_input(station->display, LIVE_MOUSE, now_us, station->reports))
 		stopped = 1;
-	stamp(station);
+	live_stamp(station->reports, station->kiosk->frame, station->collected_us, now_us);
+	station->collected_us = now_us;
+	station_record_frame(station, unplugged);
 	if (station->reports->count > 0)
 		station->touched = station->kiosk->frame;
 	return unplugged;
@@ -231,6 +222,7 @@ static void end_visit(struct station *station)
 {
 	kiosk_finish(station->kiosk);
 	write_journal(station, station->kiosk->journal, station->kiosk->journal_size);
+	station_record_end(station);
 	if (station->journal >= 0)
 		close(station->journal);
 	station->journal = -1;
@@ -286,8 +278,10 @@ static bool read_options(struct station *station, int argc, char **argv)
 			       {"--journals", &station->journals},
 			       {"--else-replay", &station->tape},
 			       {"--out", &station->out}};
-		bool known = strcmp(argv[i], "--bones") == 0;
-		station->bones |= known;
+		bool bones = strcmp(argv[i], "--bones") == 0;
+		bool visits = strcmp(argv[i], "--visits") == 0, known = bones || visits;
+		station->bones |= bones;
+		station->record |= visits;
 		for (int k = 0; k < COUNT_OF(options) && !known; k++)
 			if (strcmp(argv[i], options[k].word) == 0 && i + 1 < argc) {
 				*options[k].value = argv[++i];

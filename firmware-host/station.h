@@ -10,11 +10,13 @@
 #include "live.h"
 #include "service.h"
 #include "store.h"
+#include "tape_recorder.h"
 #include "threads.h"
 
 struct station {
 	const char *board_path, *body, *journals, *tape, *out;
-	bool bones; /* drawn over the figure, for the operator */
+	bool bones;  /* drawn over the figure, for the operator */
+	bool record; /* each visit's tape, beside its journal */
 	struct board board;
 	enum display_kind kind;
 	struct display *display;
@@ -31,10 +33,14 @@ struct station {
 	struct service service;
 	int64_t start_us; /* of frame 0, on CLOCK_MONOTONIC; moves on with every late frame */
 	int64_t opened_us;
-	int journal;    /* file, -1: none */
-	int touched;    /* last frame with input */
-	int redraw;     /* frame from which on drawing may be tried again */
-	char dark[200]; /* why there is no picture, as told last */
+	int64_t collected_us;           /* of the last frame's reports */
+	int journal;                    /* file, -1: none */
+	char tape_path[PATH_BYTES_MAX]; /* "" none */
+	struct tape_recorder tape_made;
+	struct pen_mount tape_mount; /* how the pens lie, as it stands on the tape */
+	int touched;                 /* last frame with input */
+	int redraw;                  /* frame from which on drawing may be tried again */
+	char dark[200];              /* why there is no picture, as told last */
 	char fault[FAULT_BYTES];
 };
 
@@ -52,6 +58,12 @@ void station_mount_pens(struct station *station);
 /* Draws a frame and shows it; without a display the visit goes on unseen. False: the display has
  * failed for good. */
 bool station_show(struct station *station);
+
+/* The visit's tape: begun with the visit, a frame's reports as they are handed to the kiosk, ended
+ * with the visit or by what a tape can't say. */
+void station_record_begin(struct station *station, const char *journal_path);
+void station_record_frame(struct station *station, unsigned unplugged);
+void station_record_end(struct station *station);
 
 /* Tells the operator everything that the machine knows about itself. */
 void station_tell_service(struct station *station);

@@ -5,6 +5,7 @@
 
 if afterwards; then
   same_edits "$out/tape"
+  visit_replays
   finish
 fi
 

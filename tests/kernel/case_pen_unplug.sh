@@ -6,6 +6,7 @@
 
 if afterwards; then
   same_edits "$out/tape"
+  visit_replays
   finish
 fi
 

@@ -72,6 +72,16 @@ same_edits() {
   edits "$out"/journals/*.kitsuke | diff "$folder/wanted" - || fail "the visit has other edits than the tape"
 }
 
+# visit_replays: the tape that the station recorded of its one visit replays to its journal, byte for
+# byte, and to the state that it had at the end. The replay lies in $folder/again.
+visit_replays() {
+  recorded=$(ls "$out"/journals/*.hid) || fail "the visit was not recorded"
+  again=$("$kitsuke" replay "$recorded" --out "$folder/again" --no-pictures | sed 's/^hash \([0-9a-f]*\).*/\1/')
+  cmp "${recorded%.hid}.kitsuke" "$folder/again/journal.kitsuke" || fail "the visit's tape makes another journal"
+  hash=$(sed -n 's/^# hash //p' "$recorded")
+  [ -n "$hash" ] && [ "$again" = "$hash" ] || fail "the visit's tape replays to $again, the visit was $hash"
+}
+
 # reports DEVICE: what a tape's device sent, a line a report, on stdin.
 reports() {
   awk -v wanted="$1" '
@@ -116,9 +126,10 @@ release() {
 
 # ---- the station ----
 
-# station ARGUMENT...: starts it; its journals lie in $out/journals, its words in $out/station.
+# station ARGUMENT...: starts it; its journals and tapes lie in $out/journals, its words in
+# $out/station.
 station() {
-  "$kitsuke" --journals "$out/journals" "$@" >>"$out/station" 2>&1 &
+  "$kitsuke" record --visits --journals "$out/journals" "$@" >>"$out/station" 2>&1 &
   station=$!
   expect 60 'tablet\|HID device' "$out/station"
 }
