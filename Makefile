@@ -103,6 +103,7 @@ $(FUZZ): LINK := -fsanitize=fuzzer
 # Calls that a program of the tests wants to see pass: the linker sends our calls of f to __wrap_f.
 $(B)/tests/bench_frame: LINK := -Wl,--wrap=drag_move,--wrap=cloth_self
 $(B)/tests/test_display_turn: LINK := -Wl,--wrap=display_context_lost
+$(B)/tests/test_latency: LINK := -Wl,--wrap=read
 $(B)/tests/test_allocation: LINK := $(patsubst %,-Wl$(comma)--wrap=%,malloc calloc realloc \
                              aligned_alloc posix_memalign strdup strndup)
 

@@ -98,6 +98,19 @@ struct live_changes live_collect(struct live *live, struct frame_reports *report
 	return changes;
 }
 
+void live_peek(struct live *live, struct frame_reports *reports)
+{
+	reports->count = 0;
+	pthread_mutex_lock(&live->lock);
+	for (int i = 0; i < live->count && reports->count < FRAME_REPORTS_MAX; i++) {
+		const struct raw_report *next = &live->queue[(live->first + i) % QUEUE_MAX];
+		if (next->size <= 0)
+			break;
+		reports->report[reports->count++] = *next;
+	}
+	pthread_mutex_unlock(&live->lock);
+}
+
 void live_device(struct live *live, int device, struct tape_device *told)
 {
 	MUST(device >= 0 && device < PEN_DEVICES_MAX);

@@ -75,6 +75,9 @@ void live_close(struct live *live);
 /* Adds what came since the last call. What does not fit waits for the next frame. */
 struct live_changes live_collect(struct live *live, struct frame_reports *reports);
 
+/* The reports that the next call of live_collect would begin with; they stay where they are. */
+void live_peek(struct live *live, struct frame_reports *reports);
+
 /* Gives a frame's reports the times that they count at, in the program's time: spread over the
  * frame as they were read between two calls of live_collect, at since_us and now_us on the reports'
  * clock. What was read over more time than a frame has is pressed together. */
@@ -86,7 +89,8 @@ void live_device(struct live *live, int device, struct tape_device *told);
 /* One line about tablets for the service page: what is there, or what is missing and the remedy. */
 void live_text(struct live *live, char text[LIVE_TEXT_MAX]);
 
-/* Reports that were lost because nobody collected for too long. */
+/* Reports that were left out: nobody collected for too long, or more than 2000 a second came and
+ * this one changed nothing but the place. */
 long live_lost(struct live *live);
 
 /* --- for other sources, and for tests ----------------------------------------------------------

@@ -29,7 +29,10 @@ struct tablet {
 	int usb;             /* the same for the interfaces of one USB device; 0: none */
 	int64_t renew_at_us; /* not set up again before */
 	int renewals;
-	char reason[160]; /* why it could not be set up; "" it was, or need not be */
+	unsigned touch;      /* what the last report said: the tip's, and the other switches */
+	int64_t credit_us;   /* of thinning: what it may send at once */
+	int64_t credited_us; /* when that was counted */
+	char reason[160];    /* why it could not be set up; "" it was, or need not be */
 };
 
 struct live {

@@ -11,6 +11,10 @@ enum {
 	RENEW_AFTER_US = 100000, /* reports on their way when a tablet was set up are no relapse */
 	RENEW_EVERY_US = 1000000,
 	RENEWALS_MAX = 5, /* without a report of the protocol in between */
+
+	/* No hand means more than 2000 places a second; what a stalled ring held comes at once. */
+	REPORT_LEAST_US = 500,
+	CREDIT_MAX_US = 256 * REPORT_LEAST_US,
 };
 
 /* --- tablets ---------------------------------------------------------------------------------- */
@@ -176,6 +180,28 @@ static unsigned mode_watch_locked(struct live *live, int device, const struct pe
 
 /* --- reading ---------------------------------------------------------------------------------- */
 
+static unsigned switches(const struct pen_fields *f)
+{
+	return 1u | (unsigned)f->tip << 1 | (unsigned)f->in_range << 2 | (unsigned)f->invert << 3 |
+	       (unsigned)f->eraser << 4 | (unsigned)f->barrel << 5;
+}
+
+/* A flood of places is thinned before the queue, so that none is late and no frame has more of it
+ * than of a fast tablet. Whatever begins or ends something is kept. */
+static bool report_wanted(struct tablet *tablet, const struct pen_fields *fields, int64_t now_us)
+{
+	unsigned touch = switches(fields);
+	bool turn = touch != tablet->touch;
+	int64_t credit_us = tablet->credit_us + now_us - tablet->credited_us;
+	tablet->credit_us = credit_us < CREDIT_MAX_US ? credit_us : CREDIT_MAX_US;
+	tablet->credited_us = now_us;
+	tablet->touch = touch;
+	if (!turn && tablet->credit_us < REPORT_LEAST_US)
+		return false;
+	tablet->credit_us -= turn ? 0 : REPORT_LEAST_US;
+	return true;
+}
+
 /* Queues a pen's report. Returns the tablets to be set up again, a bit each. */
 static unsigned report_take(struct live *live, int device, int size, const uint8_t *bytes)
 {
@@ -188,8 +214,10 @@ static unsigned report_take(struct live *live, int device, int size, const uint8
 		const struct pen_layout *layout = pen_report_read(
 			tablet->layout, tablet->layout_count, bytes, size, &tablet->memory, &fields,
 			&cut_off);
-		if (layout)
+		bool wanted = layout && report_wanted(tablet, &fields, live_clock_us());
+		if (wanted)
 			live_queue(live, device, size, bytes);
+		live->lost += layout && !wanted;
 		again = mode_watch_locked(live, device, layout, bytes);
 	}
 	pthread_mutex_unlock(&live->lock);

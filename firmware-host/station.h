@@ -6,7 +6,7 @@
 #include "buttons.h"
 #include "display.h"
 #include "draw.h"
-#include "kiosk.h"
+#include "kiosk_late.h"
 #include "live.h"
 #include "service.h"
 #include "store.h"
@@ -28,6 +28,7 @@ struct station {
 	struct threads threads;
 	struct kiosk *kiosk;
 	struct frame_reports *reports;
+	struct kiosk_late late;
 	struct live *live;
 	struct buttons *buttons;
 	struct service service;

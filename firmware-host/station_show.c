@@ -114,6 +114,18 @@ void station_mount_pens(struct station *station)
 	pen_mount(&station->kiosk->pen, &mount);
 }
 
+/* What the pen has done since the frame's reports were read. */
+static void read_late(struct station *station)
+{
+	struct frame_reports *reports = station->reports;
+	reports->count = 0;
+	if (station->live)
+		live_peek(station->live, reports);
+	live_stamp(reports, station->kiosk->frame, station->collected_us,
+		   live_clock_us() - station->opened_us);
+	kiosk_late_show(&station->late, station->kiosk, reports);
+}
+
 /* Without a display the visit goes on unseen. False: the display has failed for good. */
 bool station_show(struct station *station)
 {
@@ -130,7 +142,9 @@ bool station_show(struct station *station)
 	if (follow_context(station, fault)) {
 		if (station->mounted != station->generation)
 			station_mount_pens(station);
+		read_late(station);
 		draw_frame(station->draw, &kiosk->ui, &kiosk->session);
+		kiosk_late_hide(&station->late, kiosk);
 		display_present(station->display);
 	} else {
 		station_say(fault);
