@@ -51,6 +51,14 @@ static const struct edit_help edit_help[EDIT_KIND_COUNT] = {
 	[EDIT_PIECE] = {"NAME SWATCH OVER X Y TURN OUTLINE", "a new piece, local outline, OVER 1: "
 							     "inside up; X Y mm, TURN rad"},
 	[EDIT_OUTLINE] = {"PIECE OUTLINE", "a piece gets this outline"},
+	[EDIT_SCALE] = {"PIECE SX SY X Y", "larger or smaller about X Y, its marks with it"},
+	[EDIT_POINT] = {"PIECE CORNER X Y", "a corner moves there, both its edges follow"},
+	[EDIT_BEND] = {"PIECE EDGE X Y", "the edge bends so that its middle lies there"},
+	[EDIT_SPLIT] = {"PIECE EDGE SHARE", "a new corner there, 0..1 of the edge's length; a "
+					    "seam and its other edge are divided, too"},
+	[EDIT_JOIN] = {"PIECE CORNER", "the corner goes, its two edges become one"},
+	[EDIT_FOLD] = {"PIECE ON X Y RAD", "ON 1: the piece is symmetric from here on, about the "
+					   "axis through X Y; ON 0: no longer"},
 	[EDIT_PLACE] = {"PIECE OVER X Y TURN", "where a piece lies on the sheet, which side up"},
 	[EDIT_COPY] = {"PIECE X Y", "a copy, X Y mm aside"},
 	[EDIT_MIRROR] = {"PIECE", "its shape becomes its mirror image"},
@@ -61,6 +69,8 @@ static const struct edit_help edit_help[EDIT_KIND_COUNT] = {
 	[EDIT_SEW] = {"PIECE EDGE PIECE EDGE SWAPPED", "sews two edges; the start of one meets "
 						       "the end of the other, or its start if "
 						       "SWAPPED is 1"},
+	[EDIT_EVEN] = {"SEAM ON", "ON 1: its edges are kept equally long while one is edited; ON "
+				  "0: the longer is eased in"},
 	[EDIT_UNSEW] = {"SEAM", "opens a seam"},
 	[EDIT_MARK_CLOTH] = {"NUMBER PIECE X Y ...", "a line on the cloth, mm on the piece"},
 	[EDIT_MARK_BODY] = {"NUMBER X Y Z ...", "a line on the body, m; snaps to the surface"},

@@ -16,6 +16,12 @@
 	X(EDIT_BODY, "body", "n")         /* name of the body: "mannequin" or a file's name */     \
 	X(EDIT_PIECE, "piece", "niifffc") /* name swatch inside_up x y turn_rad outline */         \
 	X(EDIT_OUTLINE, "outline", "ic")  /* piece, its new outline */                             \
+	X(EDIT_SCALE, "scale", "iffff")   /* piece, factors x y, about x y */                      \
+	X(EDIT_POINT, "point", "iiff")    /* piece corner, where it goes */                        \
+	X(EDIT_BEND, "bend", "iiff")      /* piece edge, where its middle goes */                  \
+	X(EDIT_SPLIT, "split", "iif")     /* piece edge, share of its length: a corner there */    \
+	X(EDIT_JOIN, "join", "ii")        /* piece corner: it goes, its edges become one */        \
+	X(EDIT_FOLD, "fold", "iifff")     /* piece, 1 symmetric 0 not, axis x y rad */             \
 	X(EDIT_PLACE, "place", "iifff")   /* piece inside_up x y turn_rad */                       \
 	X(EDIT_COPY, "copy", "iff")       /* piece, shift x y on the sheet */                      \
 	X(EDIT_MIRROR, "mirror", "i")     /* piece: its shape becomes its mirror image */          \
@@ -23,6 +29,7 @@
 	X(EDIT_SWATCH, "swatch", "ii")    /* piece swatch */                                       \
 	X(EDIT_LAYER, "layer", "ii")      /* piece, 0..9: its garment is worn over lower ones */   \
 	X(EDIT_SEW, "sew", "iiiii")       /* piece edge piece edge swapped */                      \
+	X(EDIT_EVEN, "even", "ii")        /* seam, 1: its edges are kept equally long */           \
 	X(EDIT_UNSEW, "unsew", "i")       /* seam */                                               \
 	X(EDIT_MARK_CLOTH, "mark-cloth", "ii2") /* number piece, line in mm */                     \
 	X(EDIT_MARK_BODY, "mark-body", "i3")    /* number, line in m: snaps to the surface */      \

@@ -23,6 +23,9 @@ struct piece {
 	int point_count;
 	struct v2 point_mm[OUTLINE_POINTS_MAX]; /* local */
 	bool corner[OUTLINE_POINTS_MAX];        /* edges run from corner to corner */
+	bool symmetric; /* about its axis; what happens to one half happens to the other */
+	struct v2 axis_mm;
+	float axis_rad; /* of the axis' direction, local */
 };
 
 /* One side of a seam: the index of an edge in a piece. */
@@ -37,6 +40,7 @@ struct seam {
 	bool used;
 	bool swapped;
 	struct edge_ref a, b;
+	bool even; /* both edges are kept equally long while one is edited */
 };
 
 struct pattern {

@@ -218,6 +218,11 @@ static void hash_pattern(struct hash *hash, const struct pattern *pattern)
 		hash_float(hash, piece->position_mm.x);
 		hash_float(hash, piece->position_mm.y);
 		hash_float(hash, piece->turn_rad);
+		if (piece->symmetric) {
+			hash_float(hash, piece->axis_mm.x);
+			hash_float(hash, piece->axis_mm.y);
+			hash_float(hash, piece->axis_rad);
+		}
 		for (int i = 0; i < piece->point_count; i++) {
 			hash_float(hash, piece->point_mm[i].x);
 			hash_float(hash, piece->point_mm[i].y);
@@ -230,6 +235,8 @@ static void hash_pattern(struct hash *hash, const struct pattern *pattern)
 		if (!seam->used)
 			continue;
 		hash_int(hash, seam->swapped);
+		if (seam->even)
+			hash_int(hash, 2);
 		hash_int(hash, seam->a.piece * 1000 + seam->a.edge);
 		hash_int(hash, seam->b.piece * 1000 + seam->b.edge);
 	}

@@ -38,8 +38,16 @@ struct document {
 
 struct undo; /* ring of whole states */
 
+/* The draft becomes what the document would be after an edit of a shape (outline, scale, point,
+ * bend, split, join, fold, even): marks, seams, the other half of a symmetric piece and evenly sewn
+ * edges follow. Returns NULL, or why not; the draft is good for nothing then. The face shows by it
+ * what a pen is about to do. */
+const char *document_shape(struct document *draft, const struct document *document,
+			   const struct edit *edit);
+
 struct session {
 	struct document document;
+	struct document draft; /* room to try an edit in */
 	struct body body;
 	struct garment garment;
 	struct cloth cloth;

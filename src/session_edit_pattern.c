@@ -67,40 +67,14 @@ static const char *add_piece(struct session *session, const struct edit *edit)
 	return NULL;
 }
 
-/* After an outline changed, each seam on it moves to the new edge that lies nearest to the middle
- * of its old one. */
-static void move_seams(struct pattern *pattern, int at, const struct piece *old)
+/* Tried on a draft first, so that what is refused has changed nothing. */
+static const char *change_shape(struct session *session, const struct edit *edit)
 {
-	for (int s = 0; s < SEAMS_MAX; s++) {
-		struct seam *seam = &pattern->seam[s];
-		struct edge_ref *side[2] = {&seam->a, &seam->b};
-		for (int k = 0; seam->used && k < 2; k++) {
-			if (side[k]->piece != at)
-				continue;
-			float fraction;
-			struct v2 middle = piece_edge_point(old, side[k]->edge, 0.5f);
-			piece_nearest_edge(&pattern->piece[at], middle, &side[k]->edge, &fraction);
-		}
-		if (seam->used && seam->a.piece == seam->b.piece && seam->a.edge == seam->b.edge)
-			seam->used = false;
-	}
-}
-
-static const char *change_outline(struct session *session, const struct edit *edit)
-{
-	int at = edit->i[0];
-	if (!piece_exists(session, at))
-		return no_piece;
-	struct piece old, changed;
-	old = session->document.pattern.piece[at];
-	changed = old;
-	take_outline(&changed, edit);
-	const char *fault = piece_fault(&changed);
+	const char *fault = document_shape(&session->draft, &session->document, edit);
 	if (fault)
 		return fault;
 	undo_keep(session);
-	session->document.pattern.piece[at] = changed;
-	move_seams(&session->document.pattern, at, &old);
+	session->document = session->draft;
 	return NULL;
 }
 
@@ -158,6 +132,8 @@ static const char *mirror_piece(struct session *session, const struct edit *edit
 		piece->point_mm[i] = (struct v2){-old.point_mm[from].x, old.point_mm[from].y};
 		piece->corner[i] = old.corner[from];
 	}
+	piece->axis_mm.x = -old.axis_mm.x;
+	piece->axis_rad = -old.axis_rad;
 	int edges = piece_edge_count(&old);
 	for (int s = 0; s < SEAMS_MAX; s++) {
 		struct seam *seam = &pattern->seam[s];
@@ -235,7 +211,8 @@ static const char *sew(struct session *session, const struct edit *edit)
 		if (pattern->seam[s].used)
 			continue;
 		undo_keep(session);
-		pattern->seam[s] = (struct seam){true, edit->i[4] != 0, a, b};
+		pattern->seam[s] = (struct seam){
+			.used = true, .swapped = edit->i[4] != 0, .a = a, .b = b};
 		return NULL;
 	}
 	return "there are as many seams as fit; remove one first";
@@ -268,7 +245,14 @@ const char *session_edit_pattern(struct session *session, const struct edit *edi
 	case EDIT_PIECE:
 		return add_piece(session, edit);
 	case EDIT_OUTLINE:
-		return change_outline(session, edit);
+	case EDIT_SCALE:
+	case EDIT_POINT:
+	case EDIT_BEND:
+	case EDIT_SPLIT:
+	case EDIT_JOIN:
+	case EDIT_FOLD:
+	case EDIT_EVEN:
+		return change_shape(session, edit);
 	case EDIT_PLACE:
 		return place_piece(session, edit);
 	case EDIT_COPY:

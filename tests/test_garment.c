@@ -69,8 +69,8 @@ static void make_tube(void)
 	memset(&pattern, 0, sizeof pattern);
 	add_piece(0, sheet, 4);
 	add_piece(3, sheet, 4);
-	pattern.seam[1] = (struct seam){true, false, {0, 1}, {3, 3}};
-	pattern.seam[4] = (struct seam){true, false, {0, 3}, {3, 1}};
+	pattern.seam[1] = (struct seam){true, false, {0, 1}, {3, 3}, false};
+	pattern.seam[4] = (struct seam){true, false, {0, 3}, {3, 1}, false};
 }
 
 static void test_tube(void)
@@ -112,7 +112,7 @@ static void test_dart(void)
 					  {250, 250}, {235, 400}, {0, 400}};
 	memset(&pattern, 0, sizeof pattern);
 	add_piece(0, point, 7);
-	pattern.seam[0] = (struct seam){true, false, {0, 3}, {0, 4}};
+	pattern.seam[0] = (struct seam){true, false, {0, 3}, {0, 4}, false};
 	CHECK(mesh_with(600, 1000));
 	check_sound();
 	struct figures figures;
@@ -133,7 +133,7 @@ static void test_cone(void)
 		struct v2 point[] = {{0, 500}, {-(float)half, 0}, {(float)half, 0}};
 		memset(&pattern, 0, sizeof pattern);
 		add_piece(0, point, 3);
-		pattern.seam[0] = (struct seam){true, false, {0, 0}, {0, 2}};
+		pattern.seam[0] = (struct seam){true, false, {0, 0}, {0, 2}, false};
 		CHECK(mesh_with(500, 1000));
 		check_sound();
 		CHECK(garment.pair_count > 5);
@@ -153,7 +153,7 @@ static void test_narrow(void)
 		add_piece(0, point, 4);
 		static const struct v2 sheet[] = {{0, 0}, {900, 0}, {900, 700}, {0, 700}};
 		add_piece(1, sheet, 4);
-		pattern.seam[0] = (struct seam){true, false, {0, 0}, {1, 2}};
+		pattern.seam[0] = (struct seam){true, false, {0, 0}, {1, 2}, false};
 		CHECK(mesh_with(2000, 1000));
 		check_sound();
 		struct figures figures;
@@ -165,13 +165,13 @@ static void test_narrow(void)
 static void test_refusals(void)
 {
 	make_tube();
-	pattern.seam[5] = (struct seam){true, false, {0, 1}, {3, 0}};
+	pattern.seam[5] = (struct seam){true, false, {0, 1}, {3, 0}, false};
 	CHECK(garment_start(job, &garment, &pattern, 1000));
-	pattern.seam[5] = (struct seam){true, false, {0, 0}, {0, 0}};
+	pattern.seam[5] = (struct seam){true, false, {0, 0}, {0, 0}, false};
 	CHECK(garment_start(job, &garment, &pattern, 1000));
-	pattern.seam[5] = (struct seam){true, false, {0, 0}, {3, 4}};
+	pattern.seam[5] = (struct seam){true, false, {0, 0}, {3, 4}, false};
 	CHECK(garment_start(job, &garment, &pattern, 1000));
-	pattern.seam[5] = (struct seam){true, false, {0, 0}, {1, 0}};
+	pattern.seam[5] = (struct seam){true, false, {0, 0}, {1, 0}, false};
 	CHECK(garment_start(job, &garment, &pattern, 1000));
 	pattern.seam[5].used = false;
 	CHECK(!garment_start(job, &garment, &pattern, 1000));

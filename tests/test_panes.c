@@ -250,7 +250,8 @@ static void check_sewing(struct panes *panes)
 	ui->gesture = GESTURE_NONE;
 	ui->sew_from.piece = ui->sew_to.piece = -1;
 	ui->pen_state = PEN_AWAY;
-	panes->session->document.pattern.seam[0] = (struct seam){true, false, {0, 1}, {1, 3}};
+	panes->session->document.pattern.seam[0] = (struct seam){
+		true, false, {0, 1}, {1, 3}, false};
 	ui->seam = 0;
 	frame(panes, true);
 }
