@@ -95,6 +95,7 @@ all: $(B)/kitsuke
 
 $(B)/kitsuke: $(call objects,$(MAIN)) $(B)/kitsuke.a
 $(B)/tests/test_display_kms: $(B)/tests/fake_card.o
+$(B)/tests/test_editor: $(B)/tests/hand_motion.o $(B)/tests/hand_visit.o
 $(TESTS) $(BENCH) $(FUZZ): %: %.o $(B)/kitsuke.a
 .SECONDEXPANSION:
 $(TOOLS): %: %.o $$(call objects,$$(wildcard $$(subst $(B)/,,$$@)_*.c)) $(B)/kitsuke.a

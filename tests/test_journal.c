@@ -112,7 +112,7 @@ static void test_faults(void)
 		{"mark-body 1 0 0", JOURNAL_FAULT, "three numbers"},
 		{"mark-body 1", JOURNAL_FAULT, "no points"},
 		{"outline 0 1 2 3", JOURNAL_FAULT, "corner"},
-		{"fold 1", JOURNAL_FAULT, "unknown word \"fold\""},
+		{"iron 1", JOURNAL_FAULT, "unknown word \"iron\""},
 		{"wrap *12345678", JOURNAL_FAULT, "checksum"},
 	};
 	for (int i = 0; i < COUNT_OF(cases); i++) {

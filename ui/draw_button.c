@@ -129,10 +129,13 @@ static void draw_tool(const struct brush *brush, struct rect rect, const struct 
 		      enum target target)
 {
 	static const enum icon icon[TARGET_COUNT] = {
-		[TARGET_COPY] = ICON_COPY,     [TARGET_TURN_OVER] = ICON_TURN_OVER,
-		[TARGET_MIRROR] = ICON_MIRROR, [TARGET_DELETE] = ICON_BIN,
-		[TARGET_SWAP] = ICON_SWAP,     [TARGET_LASER] = ICON_LASER,
-		[TARGET_ERASE] = ICON_ERASER,
+		[TARGET_COPY] = ICON_COPY,        [TARGET_TURN_OVER] = ICON_TURN_OVER,
+		[TARGET_MIRROR] = ICON_MIRROR,    [TARGET_DELETE] = ICON_BIN,
+		[TARGET_SWAP] = ICON_SWAP,        [TARGET_LASER] = ICON_LASER,
+		[TARGET_ERASE] = ICON_ERASER,     [TARGET_TOOL_PENCIL] = ICON_PENCIL,
+		[TARGET_FOLD] = ICON_FOLD,        [TARGET_TOOL_POINTS] = ICON_POINTS,
+		[TARGET_EVEN] = ICON_EVEN,        [TARGET_TOOL_BOX] = ICON_BOX,
+		[TARGET_TOOL_ROUND] = ICON_ROUND,
 	};
 	cairo_t *cr = brush->cr;
 	double u = brush->unit, alpha = face->useful ? 1.0 : 0.36;
@@ -165,6 +168,17 @@ static void draw_tool(const struct brush *brush, struct rect rect, const struct 
 	}
 	cairo_pop_group_to_source(cr);
 	cairo_paint_with_alpha(cr, alpha);
+}
+
+static void draw_zoom(const struct brush *brush, struct rect rect, const struct face *face,
+		      enum target target)
+{
+	double u = brush->unit;
+	fill_box(brush, rect, 16.0, colour_mix(0xffffff, LOOK_INK_GREY, face->pressed ? 0.18 : 0.0),
+		 face->useful ? 0.95 : 0.5);
+	ink(brush->cr, LOOK_INK, face->useful ? 1.0 : 0.36);
+	draw_icon(brush->cr, target == TARGET_ZOOM_IN ? ICON_PLUS : ICON_MINUS,
+		  rect.x + 0.5 * rect.w, rect.y + 0.5 * rect.h, 34.0 * u);
 }
 
 /* A twin of a real button: its cap's colour, bright when pressing it would do something now. */
@@ -306,6 +320,10 @@ void draw_button(const struct brush *brush, struct rect rect, const struct face 
 	else if (target <= TARGET_VIEW_BACK)
 		draw_view_button(brush, rect, face, target);
 	else if (target <= TARGET_ERASE)
+		draw_tool(brush, rect, face, target);
+	else if (target >= TARGET_ZOOM_OUT)
+		draw_zoom(brush, rect, face, target);
+	else if (target >= TARGET_TOOL_PENCIL)
 		draw_tool(brush, rect, face, target);
 	else if (target <= TARGET_RELAX)
 		draw_twin(brush, rect, face, target);

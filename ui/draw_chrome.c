@@ -26,7 +26,7 @@ static bool looks_from(const struct view *view, enum target target)
 	return turn->row[2].x * s + turn->row[2].z * c > 0.97f && turn->row[1].y > 0.97f;
 }
 
-static bool is_on(const struct ui *ui, enum target target)
+static bool is_on(const struct ui *ui, const struct session *session, enum target target)
 {
 	if (target >= TARGET_STEP_DRAW && target <= TARGET_STEP_ADJUST)
 		return (int)ui->step == (int)target - TARGET_STEP_DRAW;
@@ -34,7 +34,16 @@ static bool is_on(const struct ui *ui, enum target target)
 		return looks_from(&ui->view, target);
 	if (target >= TARGET_SWATCH_0 && target <= TARGET_SWATCH_7)
 		return ui->swatch == (int)target - TARGET_SWATCH_0;
+	if (target >= TARGET_TOOL_PENCIL && target <= TARGET_TOOL_ROUND)
+		return (int)ui->drawing == (int)target - TARGET_TOOL_PENCIL;
+	const struct pattern *pattern = &session->document.pattern;
 	switch (target) {
+	case TARGET_FOLD:
+		return ui->piece >= 0 && pattern->piece[ui->piece].used &&
+		       pattern->piece[ui->piece].symmetric;
+	case TARGET_EVEN:
+		return ui->seam >= 0 && pattern->seam[ui->seam].used &&
+		       pattern->seam[ui->seam].even;
 	case TARGET_LASER:
 		return ui->laser;
 	case TARGET_ERASE:
@@ -60,7 +69,7 @@ static struct face face_of(const struct ui *ui, const struct session *session, i
 		face.useful = ui_useful(ui, session, target);
 		face.hover = ui->hover_target == target;
 		face.pressed = ui->gesture == GESTURE_TARGET && ui->pressed == target;
-		face.on = is_on(ui, target);
+		face.on = is_on(ui, session, target);
 		face.pulse = ui->pulse[target] && since < PULSE_FRAMES ? PULSE_FRAMES - since : 0;
 		face.progress = face.pressed ? int_min(ui->hold_frames * 100 / CLEAR_FRAMES, 100)
 					     : 0;
@@ -153,17 +162,23 @@ static void add_patch(struct layer *layer, struct rect rect, bool opaque)
 
 static void make_patches(struct layer *layer, const struct layout *layout)
 {
-	struct rect views = {0, 0, 0, 0}, swatches = {0, 0, 0, 0};
+	struct rect views = {0, 0, 0, 0}, swatches = views, tools = views, zooms = views;
 	for (int i = TARGET_VIEW_FRONT; i <= TARGET_VIEW_BACK; i++)
 		views = rect_join(views, layout->target[i]);
 	for (int i = TARGET_SWATCH_0; i <= TARGET_SWATCH_7; i++)
 		swatches = rect_join(swatches, layout->target[i]);
+	for (int i = TARGET_TOOL_PENCIL; i <= TARGET_EVEN; i++)
+		tools = rect_join(tools, layout->target[i]);
+	for (int i = TARGET_ZOOM_OUT; i <= TARGET_ZOOM_IN; i++)
+		zooms = rect_join(zooms, layout->target[i]);
 	layer->patch_count = 0;
 	add_patch(layer, layout->bar, true);
 	add_patch(layer, layout->bottom, true);
 	add_patch(layer, views, false);
 	add_patch(layer, layout->hint, false);
 	add_patch(layer, swatches, false);
+	add_patch(layer, tools, false);
+	add_patch(layer, zooms, false);
 }
 
 static uint64_t layout_hash(const struct ui *ui)

@@ -180,6 +180,77 @@ static void undo(cairo_t *cr)
 	cairo_stroke(cr);
 }
 
+static void pencil(cairo_t *cr)
+{
+	static const struct point body[] = {
+		{-0.86, 0.86}, {-0.7, 0.3}, {0.46, -0.86}, {0.86, -0.46}, {-0.3, 0.7}};
+	polygon(cr, body, COUNT_OF(body));
+	cairo_close_path(cr);
+	cairo_move_to(cr, 0.2, -0.6);
+	cairo_line_to(cr, 0.6, -0.2);
+	cairo_stroke(cr);
+}
+
+/* A bent line with its corners. */
+static void points(cairo_t *cr)
+{
+	static const struct point corner[] = {{-0.74, 0.6}, {-0.2, -0.66}, {0.74, 0.3}};
+	cairo_move_to(cr, corner[0].x, corner[0].y);
+	cairo_line_to(cr, corner[1].x, corner[1].y);
+	cairo_curve_to(cr, 0.4, -0.8, 0.8, -0.3, corner[2].x, corner[2].y);
+	cairo_stroke(cr);
+	for (int i = 0; i < COUNT_OF(corner); i++) {
+		disc(cr, corner[i].x, corner[i].y, 0.24);
+		cairo_fill(cr);
+	}
+}
+
+/* One half as drawn, the other as its image in dashes. */
+static void fold(cairo_t *cr)
+{
+	static const double dash[2] = {0.2, 0.3};
+	static const struct point half[] = {
+		{-0.16, -0.6}, {-0.8, -0.3}, {-0.6, 0.66}, {-0.16, 0.66}};
+	polygon(cr, half, COUNT_OF(half));
+	cairo_close_path(cr);
+	cairo_fill(cr);
+	cairo_move_to(cr, 0.1, -0.95);
+	cairo_line_to(cr, 0.1, 0.95);
+	cairo_set_dash(cr, dash, 2, 0.0);
+	cairo_stroke(cr);
+	cairo_set_dash(cr, NULL, 0, 0.0);
+	cairo_move_to(cr, 0.36, -0.6);
+	cairo_line_to(cr, 0.96, -0.3);
+	cairo_line_to(cr, 0.8, 0.66);
+	cairo_line_to(cr, 0.36, 0.66);
+	cairo_stroke(cr);
+}
+
+/* Two edges with the same ticks. */
+static void even(cairo_t *cr)
+{
+	for (int i = -1; i <= 1; i += 2) {
+		cairo_move_to(cr, 0.5 * i, -0.86);
+		cairo_line_to(cr, 0.5 * i, 0.86);
+		for (int k = -1; k <= 1; k += 2) {
+			cairo_move_to(cr, 0.5 * i - 0.26, 0.14 * k);
+			cairo_line_to(cr, 0.5 * i + 0.26, 0.14 * k);
+		}
+	}
+	cairo_stroke(cr);
+}
+
+static void plus(cairo_t *cr, bool upright)
+{
+	cairo_move_to(cr, -0.6, 0.0);
+	cairo_line_to(cr, 0.6, 0.0);
+	if (upright) {
+		cairo_move_to(cr, 0.0, -0.6);
+		cairo_line_to(cr, 0.0, 0.6);
+	}
+	cairo_stroke(cr);
+}
+
 void draw_icon(cairo_t *cr, enum icon icon, double x, double y, double size)
 {
 	cairo_save(cr);
@@ -232,6 +303,30 @@ void draw_icon(cairo_t *cr, enum icon icon, double x, double y, double size)
 		break;
 	case ICON_UNDO:
 		undo(cr);
+		break;
+	case ICON_PENCIL:
+		pencil(cr);
+		break;
+	case ICON_POINTS:
+		points(cr);
+		break;
+	case ICON_BOX:
+		cairo_rectangle(cr, -0.8, -0.6, 1.6, 1.2);
+		cairo_stroke(cr);
+		break;
+	case ICON_ROUND:
+		disc(cr, 0.0, 0.0, 0.76);
+		cairo_stroke(cr);
+		break;
+	case ICON_FOLD:
+		fold(cr);
+		break;
+	case ICON_EVEN:
+		even(cr);
+		break;
+	case ICON_MINUS:
+	case ICON_PLUS:
+		plus(cr, icon == ICON_PLUS);
 		break;
 	}
 	cairo_restore(cr);

@@ -85,6 +85,44 @@ bool pen_hovers(const struct ui *ui)
 	       rect_holds(ui->layout.right, ui->pen_px);
 }
 
+/* The changed pieces of the draft, and those that they are sewn to. */
+static struct rect shaping_area(const struct easel *easel)
+{
+	const struct pattern *pattern = &easel->ui->shaping.draft.pattern;
+	const struct v2 none = {0.0f, 0.0f};
+	uint32_t changed = easel->ui->shaping.changed, drawn = changed;
+	struct rect area = {0, 0, 0, 0};
+	for (int s = 0; s < SEAMS_MAX; s++) {
+		const struct seam *seam = &pattern->seam[s];
+		uint32_t a = (uint32_t)1 << seam->a.piece, b = (uint32_t)1 << seam->b.piece;
+		if (seam->used && ((a | b) & changed))
+			drawn |= a | b;
+	}
+	for (int p = 0; p < PIECES_MAX; p++)
+		if (drawn >> p & 1 && pattern->piece[p].used)
+			area = rect_join(area, piece_area(easel, p, none));
+	for (int i = 0; i < easel->ui->shaping.guide_count; i++)
+		area = rect_join(area, rect_around(view_sheet_px(&easel->ui->view,
+								 easel->ui->shaping.guide_mm[i][0]),
+						   view_sheet_px(&easel->ui->view,
+								 easel->ui->shaping.guide_mm[i][1]),
+						   16.0 * easel->unit));
+	return area;
+}
+
+static void draw_lifted(const struct easel *easel)
+{
+	const struct v2 none = {0.0f, 0.0f};
+	for (int p = 0; p < PIECES_MAX; p++)
+		if (easel->ui->shaping.changed >> p & 1 && piece_of(easel, p)->used) {
+			draw_piece(easel, p, none, true);
+			draw_name(easel, p, none);
+		}
+	draw_seams(easel, true);
+	draw_grips(easel);
+	draw_shaping(easel);
+}
+
 /* What draw_live will cover. */
 struct rect live_extent(const struct easel *easel)
 {
@@ -100,6 +138,10 @@ struct rect live_extent(const struct easel *easel)
 		area = rect_join(area, rect_around(ui->start_px, ui->start_px, 20.0 * u));
 	if (ui->gesture == GESTURE_MOVE && piece_used(easel->session, ui->piece))
 		area = rect_join(area, piece_area(easel, ui->piece, ui->move_mm));
+	if (ui->shaping.shows)
+		area = rect_join(area, shaping_area(easel));
+	if (pen_hovers(ui) && ui->hover_grip == GRIP_EDGE)
+		area = rect_join(area, piece_area(easel, ui->piece, none));
 	if (ui->gesture == GESTURE_SEW && piece_used(easel->session, ui->sew_from.piece)) {
 		area = rect_join(area, piece_area(easel, ui->sew_from.piece, none));
 		area = rect_join(area, rect_around(ui->start_px, ui->steady_px, 8.0 * u));
@@ -116,6 +158,8 @@ void draw_live(const struct easel *easel)
 		draw_piece(easel, ui->piece, ui->move_mm, true);
 		draw_name(easel, ui->piece, ui->move_mm);
 	}
+	if (ui->shaping.shows)
+		draw_lifted(easel);
 	if (ui->gesture == GESTURE_SEW)
 		draw_sewing(easel);
 	if (ui->gesture == GESTURE_PIECE)
@@ -125,5 +169,9 @@ void draw_live(const struct easel *easel)
 	if (ui->hover_edge >= 0 && piece_used(easel->session, ui->hover_piece))
 		draw_edge_glow(easel, (struct edge_ref){ui->hover_piece, ui->hover_edge},
 			       LOOK_HINT_RIM);
+	if (ui->hover_grip == GRIP_EDGE && piece_used(easel->session, ui->piece)) {
+		draw_edge_glow(easel, (struct edge_ref){ui->piece, ui->hover_which}, LOOK_HINT_RIM);
+		draw_grips(easel);
+	}
 	draw_ring(easel);
 }

@@ -118,7 +118,7 @@ static void fill_cloth(const struct easel *easel, const struct piece *piece, str
 }
 
 static void stroke_outline(const struct easel *easel, const struct piece *piece, struct v2 shift_mm,
-			   bool selected)
+			   bool selected, bool refused)
 {
 	cairo_t *cr = easel->cr;
 	double u = easel->unit;
@@ -130,8 +130,8 @@ static void stroke_outline(const struct easel *easel, const struct piece *piece,
 		cairo_stroke(cr);
 	}
 	path_outline(easel, piece, shift_mm);
-	cairo_set_line_width(cr, 3.4 * u);
-	ink(cr, LOOK_INK, 1.0);
+	cairo_set_line_width(cr, (refused ? 5.0 : 3.4) * u);
+	ink(cr, refused ? LOOK_WRAP : LOOK_INK, 1.0);
 	cairo_stroke(cr);
 }
 
@@ -246,9 +246,9 @@ static struct words_place words_place(const struct easel *easel, int p, struct v
 		struct v2 at_px = {centre_px.x + t * width_px, centre_px.y};
 		struct v2 at_mm = view_sheet_mm(&easel->ui->view, at_px);
 		for (int q = 0; q < PIECES_MAX; q++) {
-			if (!piece_used(easel->session, q))
-				continue;
 			const struct piece *piece = piece_of(easel, q);
+			if (!piece->used)
+				continue;
 			struct v2 place = q == p ? v2_sub(at_mm, shift_mm) : at_mm;
 			bool over = piece_contains(piece, piece_from_sheet(piece, place));
 			found.inside = found.inside && (q != p || over);
@@ -256,6 +256,13 @@ static struct words_place words_place(const struct easel *easel, int p, struct v
 		}
 	}
 	return found;
+}
+
+static bool boxed(const struct easel *easel, int p)
+{
+	const struct ui *ui = easel->ui;
+	return ui->step == STEP_DRAW && ui->drawing == DRAW_PENCIL && ui->piece == p &&
+	       ui->gesture != GESTURE_MOVE && ui->gesture != GESTURE_PIECE;
 }
 
 /* Under the piece, where paper is free; on its cloth above the hem otherwise. */
@@ -271,7 +278,8 @@ void draw_name(const struct easel *easel, int p, struct v2 shift_mm)
 		&easel->ui->view, v2_add((struct v2){0.5f * (low.x + high.x), low.y}, shift_mm));
 	struct rect pane = easel->ui->view.sheet_pane;
 	float lowest = (float)(pane.y + pane.h) - 13.0f * u;
-	struct v2 below = {hem.x, float_min(hem.y + 26.0f * u, lowest)};
+	float under = boxed(easel, p) ? 64.0f : 26.0f; /* or its grips' frame */
+	struct v2 below = {hem.x, float_min(hem.y + under * u, lowest)};
 	struct v2 above = {hem.x, hem.y - 24.0f * u};
 	float width = words_width(text, size);
 	struct style style = {(double)size, false, LOOK_INK_GREY, ALIGN_CENTRE, 0.0};
@@ -296,14 +304,19 @@ void draw_name(const struct easel *easel, int p, struct v2 shift_mm)
 void draw_piece(const struct easel *easel, int p, struct v2 shift_mm, bool raised)
 {
 	const struct piece *piece = piece_of(easel, p);
+	const struct shaping *shaping = &easel->ui->shaping;
 	bool selected = easel->ui->piece == p && easel->ui->step == STEP_DRAW;
+	bool refused = shaping->shows && shaping->fault && (shaping->changed >> p & 1);
 	draw_shadow(easel, piece, shift_mm, raised);
 	fill_cloth(easel, piece, shift_mm);
-	stroke_outline(easel, piece, shift_mm, selected);
-	if (easel->ui->step == STEP_SEW || selected)
+	stroke_outline(easel, piece, shift_mm, selected, refused);
+	if (easel->ui->step == STEP_SEW || (selected && easel->ui->drawing == DRAW_PENCIL))
 		draw_corners(easel, piece, shift_mm);
+	if (piece->symmetric && easel->ui->step == STEP_DRAW && easel->ui->gesture != GESTURE_MOVE)
+		draw_axis(easel, p);
 	for (int m = 0; m < MARKS_MAX; m++) {
-		const struct cloth_mark *mark = &easel->session->document.marks.cloth[m];
+		const struct cloth_mark *mark =
+			&shown_document(easel->ui, easel->session)->marks.cloth[m];
 		if (mark->used && mark->piece == p && mark->point_count > 0)
 			draw_mark(easel, mark, shift_mm);
 	}

@@ -21,8 +21,11 @@ struct easel {
 
 static inline const struct piece *piece_of(const struct easel *easel, int piece)
 {
-	return &easel->session->document.pattern.piece[piece];
+	return &shown_document(easel->ui, easel->session)->pattern.piece[piece];
 }
+
+/* Pieces that are drawn as they follow the pen, and not where they lay. */
+uint32_t lifted_pieces(const struct ui *ui);
 
 static inline struct v2 local_px(const struct easel *easel, const struct piece *piece,
 				 struct v2 local_mm, struct v2 shift_mm)
@@ -46,11 +49,20 @@ void draw_edge_glow(const struct easel *easel, struct edge_ref edge, uint32_t co
 void draw_zip(const struct easel *easel, struct edge_ref a, struct edge_ref b, bool swapped,
 	      double alpha);
 void draw_threads(const struct easel *easel); /* from letter to letter */
-void draw_seams(const struct easel *easel);
+/* Seams that touch a lifted piece, or the others. */
+void draw_seams(const struct easel *easel, bool lifted);
 void draw_pins(const struct easel *easel);
 
 /* The rectangle that a piece with everything on it covers, in screen pixels. */
 struct rect piece_area(const struct easel *easel, int piece, struct v2 shift_mm);
+
+/* ---- draw_grips.c ---- */
+
+/* The box round the selected piece, or its points; in step 1. */
+void draw_grips(const struct easel *easel);
+/* What goes with a shape that the pen is making: guides, measures, a refusal. */
+void draw_shaping(const struct easel *easel);
+void draw_axis(const struct easel *easel, int piece);
 
 /* ---- draw_paper.c ---- */
 

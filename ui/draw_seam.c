@@ -127,7 +127,8 @@ static void draw_thread(const struct easel *easel, const struct seam *seam)
 	for (int side = 0; side < 2; side++) {
 		struct edge_ref edge = side == 0 ? seam->a : seam->b;
 		struct v2 a = edge_px(easel, edge, 0.47f), b = edge_px(easel, edge, 0.53f);
-		end[side] = seam_badge_px(easel->ui, &easel->session->document.pattern, seam, side);
+		end[side] = seam_badge_px(
+			easel->ui, &shown_document(easel->ui, easel->session)->pattern, seam, side);
 		control[side] = outward(piece_of(easel, edge.piece), a, b);
 	}
 	float reach = float_clamp(0.36f * v2_distance(end[0], end[1]), (float)(24.0 * u),
@@ -149,7 +150,7 @@ static void draw_thread(const struct easel *easel, const struct seam *seam)
 void draw_threads(const struct easel *easel)
 {
 	const struct ui *ui = easel->ui;
-	const struct pattern *pattern = &easel->session->document.pattern;
+	const struct pattern *pattern = &shown_document(easel->ui, easel->session)->pattern;
 	for (int s = 0; ui->step <= STEP_SEW && s < SEAMS_MAX; s++)
 		if (pattern->seam[s].used && !(ui->step == STEP_SEW && s == ui->seam))
 			draw_thread(easel, &pattern->seam[s]);
@@ -160,7 +161,7 @@ static void draw_letter(const struct easel *easel, int s, int side, bool selecte
 	cairo_t *cr = easel->cr;
 	double u = easel->unit;
 	char text[8];
-	const struct pattern *pattern = &easel->session->document.pattern;
+	const struct pattern *pattern = &shown_document(easel->ui, easel->session)->pattern;
 	struct v2 at = seam_badge_px(easel->ui, pattern, &pattern->seam[s], side);
 	seam_letter(s, side, text);
 	round_box(cr, (double)at.x - 19.0 * u, (double)at.y - 17.0 * u, 38.0 * u, 34.0 * u,
@@ -174,14 +175,20 @@ static void draw_letter(const struct easel *easel, int s, int side, bool selecte
 	draw_text(cr, easel->type, text, (double)at.x, (double)at.y + 8.5 * u, &style);
 }
 
-void draw_seams(const struct easel *easel)
+static bool touches(const struct seam *seam, uint32_t pieces)
 {
-	const struct pattern *pattern = &easel->session->document.pattern;
+	return (pieces >> seam->a.piece & 1) || (pieces >> seam->b.piece & 1);
+}
+
+void draw_seams(const struct easel *easel, bool lifted)
+{
+	const struct pattern *pattern = &shown_document(easel->ui, easel->session)->pattern;
+	uint32_t pieces = lifted_pieces(easel->ui);
 	bool sewing = easel->ui->step == STEP_SEW, early = easel->ui->step <= STEP_SEW;
 	for (int s = 0; s < SEAMS_MAX; s++) {
 		const struct seam *seam = &pattern->seam[s];
 		bool selected = sewing && s == easel->ui->seam;
-		if (!seam->used)
+		if (!seam->used || touches(seam, pieces) != lifted)
 			continue;
 		draw_stitches(easel, seam->a);
 		draw_stitches(easel, seam->b);
@@ -197,5 +204,6 @@ void draw_seams(const struct easel *easel)
 	}
 	for (int s = 0; early && s < SEAMS_MAX; s++)
 		for (int side = 0; pattern->seam[s].used && side < 2; side++)
-			draw_letter(easel, s, side, sewing && s == easel->ui->seam);
+			if (touches(&pattern->seam[s], pieces) == lifted)
+				draw_letter(easel, s, side, sewing && s == easel->ui->seam);
 }

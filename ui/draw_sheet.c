@@ -66,9 +66,11 @@ static uint64_t view_hash(const struct view *view)
 
 /* ---- still ---- */
 
-static int moving_piece(const struct ui *ui)
+uint32_t lifted_pieces(const struct ui *ui)
 {
-	return ui->gesture == GESTURE_MOVE ? ui->piece : -1;
+	if (ui->gesture == GESTURE_MOVE && ui->piece >= 0)
+		return (uint32_t)1 << ui->piece;
+	return ui->shaping.shows ? ui->shaping.changed : 0;
 }
 
 static void draw_still(const struct sheet *sheet, const struct easel *screen, struct rect area)
@@ -79,7 +81,8 @@ static void draw_still(const struct sheet *sheet, const struct easel *screen, st
 	clip_to(easel.cr, area);
 	cairo_set_source_surface(easel.cr, sheet->paper.surface, 0.0, 0.0);
 	cairo_paint(easel.cr);
-	if (moving_piece(easel.ui) < 0)
+	uint32_t lifted = lifted_pieces(easel.ui);
+	if (!lifted)
 		draw_threads(&easel);
 	uint32_t done = 0;
 	for (int n = 0; n < PIECES_MAX; n++) {
@@ -91,15 +94,16 @@ static void draw_still(const struct sheet *sheet, const struct easel *screen, st
 		if (lowest < 0)
 			break;
 		done |= (uint32_t)1 << lowest;
-		if (lowest != moving_piece(easel.ui))
+		if (!(lifted >> lowest & 1))
 			draw_piece(&easel, lowest, (struct v2){0.0f, 0.0f}, false);
 	}
 	for (int p = 0; p < PIECES_MAX; p++)
-		if (pattern->piece[p].used && p != moving_piece(easel.ui))
+		if (pattern->piece[p].used && !(lifted >> p & 1))
 			draw_name(&easel, p, (struct v2){0.0f, 0.0f});
-	if (moving_piece(easel.ui) < 0)
-		draw_seams(&easel);
+	draw_seams(&easel, false);
 	draw_pins(&easel);
+	if (!lifted)
+		draw_grips(&easel);
 	cairo_restore(easel.cr);
 }
 
@@ -114,16 +118,18 @@ static void hash_pieces(struct hash *hash, const struct pattern *pattern)
 		hash_float(hash, piece->position_mm.x);
 		hash_float(hash, piece->position_mm.y);
 		hash_float(hash, piece->turn_rad);
+		hash_int(hash, piece->symmetric);
 		for (int i = 0; i < piece->point_count; i++) {
 			hash_float(hash, piece->point_mm[i].x);
 			hash_float(hash, piece->point_mm[i].y);
+			hash_int(hash, piece->corner[i]);
 		}
 	}
 	for (int s = 0; s < SEAMS_MAX; s++) {
 		const struct seam *seam = &pattern->seam[s];
 		if (!seam->used)
 			continue;
-		hash_int(hash, s * 2 + seam->swapped);
+		hash_int(hash, s * 4 + seam->swapped + 2 * seam->even);
 		hash_int(hash, seam->a.piece * 1024 + seam->a.edge);
 		hash_int(hash, seam->b.piece * 1024 + seam->b.edge);
 	}
@@ -155,7 +161,8 @@ static uint64_t still_hash(const struct ui *ui, const struct session *session)
 	hash_int(&hash, (int)ui->language);
 	hash_int(&hash, ui->piece);
 	hash_int(&hash, ui->seam);
-	hash_int(&hash, moving_piece(ui));
+	hash_int(&hash, (int)ui->drawing * 1024 + ui->corner);
+	hash_u32(&hash, lifted_pieces(ui));
 	hash_u32(&hash, (uint32_t)view_hash(&ui->view));
 	return hash.value;
 }
@@ -220,6 +227,7 @@ static uint64_t live_hash(const struct ui *ui)
 	hash_int(&hash, hover ? ui->hover_piece * 1024 + ui->hover_edge : 0);
 	hash_float(&hash, hover || drawn ? pen.x : 0.0f);
 	hash_float(&hash, hover || drawn ? pen.y : 0.0f);
+	hash_int(&hash, hover ? (int)ui->hover_grip * 64 + ui->hover_which : 0);
 	return hash.value;
 }
 

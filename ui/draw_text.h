@@ -96,6 +96,14 @@ enum icon {
 	ICON_AGAIN,
 	ICON_UNDO,
 	ICON_REDO,
+	ICON_PENCIL,
+	ICON_POINTS,
+	ICON_BOX,
+	ICON_ROUND,
+	ICON_FOLD,
+	ICON_EVEN,
+	ICON_MINUS,
+	ICON_PLUS,
 };
 void draw_icon(cairo_t *cr, enum icon icon, double x, double y, double size);
 

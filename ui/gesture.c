@@ -72,6 +72,9 @@ static void end(struct tool *tool)
 	case GESTURE_ERASE:
 		tool_erase(tool, on_sheet(tool->ui), false);
 		break;
+	case GESTURE_SHAPE:
+		tool_shape_end(tool);
+		break;
 	case GESTURE_SEW:
 		tool_sew_end(tool);
 		break;
@@ -147,6 +150,7 @@ static void follow(struct tool *tool, struct v2 before_px)
 		view_trackball(&ui->view, before_px, ui->steady_px);
 		break;
 	case GESTURE_PAN:
+		ui->zoomed = true;
 		ui->view.sheet_centre_mm = v2_sub(ui->view.sheet_centre_mm, shift_mm);
 		break;
 	case GESTURE_MOVE:
@@ -155,6 +159,10 @@ static void follow(struct tool *tool, struct v2 before_px)
 		break;
 	case GESTURE_SEW:
 		tool_sew_move(tool);
+		break;
+	case GESTURE_SHAPE:
+		if (ui->moved)
+			tool_shape_move(tool);
 		break;
 	default:
 		break;
@@ -193,7 +201,7 @@ static void contact_end(struct tool *tool)
 			gesture_target(tool, ui->pressed);
 	} else if (ui->moved) {
 		end(tool);
-	} else if (ui->gesture != GESTURE_PAN) {
+	} else if (ui->gesture != GESTURE_PAN || ui->drawing == DRAW_POINTS) {
 		tap(tool);
 	}
 	ui->gesture = GESTURE_NONE;
@@ -201,6 +209,7 @@ static void contact_end(struct tool *tool)
 	ui->stroke_count = 0;
 	ui->sew_from.piece = ui->sew_to.piece = -1;
 	ui->move_mm = (struct v2){0.0f, 0.0f};
+	ui->shaping.shows = false;
 }
 
 /* ---- what lies under the pen, for highlights ---- */
@@ -214,6 +223,7 @@ static void hover(struct tool *tool)
 	ui->hover_target = TARGET_NONE;
 	ui->hover_piece = ui->hover_edge = ui->hover_seam = ui->hover_triangle = -1;
 	ui->hover_body = false;
+	ui->hover_grip = GRIP_NONE;
 	if (ui->pen_state != PEN_HOVER)
 		return;
 	ui->hover_target = layout_hit(&ui->layout, ui->pen_px);
@@ -223,6 +233,9 @@ static void hover(struct tool *tool)
 		struct v2 sheet_mm = view_sheet_mm(&ui->view, ui->pen_px);
 		float fraction;
 		ui->hover_piece = pattern_pick(&tool->session->document.pattern, sheet_mm, 0);
+		ui->hover_grip = pick_grip(ui, tool->session, ui->pen_px, &ui->hover_which);
+		if (ui->step == STEP_DRAW && ui->drawing == DRAW_POINTS)
+			ui->hover_grip = points_hover(tool, &ui->hover_which);
 		if (ui->step == STEP_SEW &&
 		    pick_edge(ui, tool->session, ui->pen_px, 7.0f, &edge, &fraction)) {
 			ui->hover_piece = edge.piece;
@@ -252,6 +265,8 @@ static void hold(struct tool *tool)
 	ui->pressed = TARGET_NONE;
 	ui->hold_frames = 0;
 	view_init(&ui->view, &ui->layout);
+	ui->zoomed = false;
+	ui->drawing = DRAW_PENCIL;
 	ui_step(ui, STEP_DRAW);
 }
 

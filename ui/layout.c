@@ -70,6 +70,18 @@ static void make_panes_tools(struct layout *l)
 							     58);
 }
 
+/* What works on the sheet, in a column at its inner side; how near it is seen, below. */
+static void make_sheet_tools(struct layout *l)
+{
+	int tools = l->step == STEP_DRAW ? 5 : 0;
+	for (int i = 0; i < tools; i++)
+		l->target[TARGET_TOOL_PENCIL + i] = box(l, l->right.y, 1056, 110 + 104 * i, 92, 96);
+	if (l->step == STEP_SEW)
+		l->target[TARGET_EVEN] = box(l, l->right.y, 1056, 110, 92, 96);
+	for (int i = 0; i < 2 && l->step <= STEP_MARK; i++)
+		l->target[TARGET_ZOOM_OUT + i] = box(l, l->right.y, 1768 + 70 * i, 774, 62, 62);
+}
+
 static void make_bottom(struct layout *l)
 {
 	int top = l->bottom.y;
@@ -105,6 +117,8 @@ static void change_sides(struct layout *l)
 		mirror_within(&l->target[TARGET_VIEW_FRONT + i], l->left);
 	for (int i = TARGET_SWATCH_0; i <= TARGET_SWATCH_7; i++)
 		mirror_within(&l->target[i], l->right);
+	for (int i = TARGET_TOOL_PENCIL; i <= TARGET_ZOOM_IN; i++)
+		mirror_within(&l->target[i], l->right);
 	mirror_within(&l->hint, l->right);
 }
 
@@ -121,6 +135,7 @@ void layout_make(struct layout *layout, int width, int height, enum step step, b
 	make_panes(layout);
 	make_bar(layout);
 	make_panes_tools(layout);
+	make_sheet_tools(layout);
 	make_bottom(layout);
 	if (left_handed)
 		change_sides(layout);

@@ -24,6 +24,12 @@ const struct phrase text_target[TARGET_COUNT] = {
 	[TARGET_WRAP] = {"着せる", "WRAP"},
 	[TARGET_PIN] = {"ピン", "PIN"},
 	[TARGET_RELAX] = {"なじませる", "RELAX"},
+	[TARGET_TOOL_PENCIL] = {"えんぴつ", "Pencil"},
+	[TARGET_TOOL_POINTS] = {"点と線", "Points"},
+	[TARGET_TOOL_BOX] = {"四角", "Box"},
+	[TARGET_TOOL_ROUND] = {"丸", "Round"},
+	[TARGET_FOLD] = {"左右同じ", "Symmetric"},
+	[TARGET_EVEN] = {"同じ長さ", "Same length"},
 };
 
 const struct phrase text_phrase[TEXT_COUNT] = {
@@ -31,6 +37,14 @@ const struct phrase text_phrase[TEXT_COUNT] = {
 	[TEXT_HINT_DRAW] = {"布の形を、ひと筆で描こう", "Draw the shape of a piece in one line"},
 	[TEXT_HINT_DRAW_SELECTED] = {"次の布を描くか、この布を複製しよう",
 				     "Draw the next piece, or copy this one"},
+	[TEXT_HINT_GRIPS] = {"枠をつまんで、大きさと向きを変えよう",
+			     "Pull the frame to resize or turn the piece"},
+	[TEXT_HINT_POINTS] = {"点や線を引こう。線に軽く触れると、点がふえます",
+			      "Pull points and lines; tap a line for a new point"},
+	[TEXT_HINT_POINTS_NONE] = {"直したい布に触れよう", "Touch the piece you want to change"},
+	[TEXT_HINT_CORNER] = {"点を引こう。「消す」で点がなくなります",
+			      "Pull the point, or delete it"},
+	[TEXT_HINT_BOX] = {"紙の上で、角から角へ引こう", "Draw from corner to corner"},
 	[TEXT_HINT_SEW] = {"縫い合わせる端から端へ、線を引こう",
 			   "Draw a line from one edge to the edge it joins"},
 	[TEXT_HINT_SEW_SELECTED] = {"同じ文字どうしが縫われます",
@@ -61,6 +75,9 @@ const struct phrase text_phrase[TEXT_COUNT] = {
 			     "Bring both ends of the line together"},
 	[TEXT_OVERSKETCH] = {"布のふちから、ふちへ描こう",
 			     "Begin and end the line on the piece's edge"},
+	[TEXT_POINT_NEAR] = {"ここにはもう点があります", "There is a point already"},
+	[TEXT_LAST_POINTS] = {"点はこれ以上、減らせません", "These points are needed"},
+	[TEXT_NO_FOLD] = {"この形は、左右同じにできません", "This shape cannot be made symmetric"},
 	[TEXT_NO_PIECE] = {"先に布を選ぼう", "Choose a piece first"},
 	[TEXT_NO_SEAM] = {"先に縫い目を選ぼう", "Choose a seam first"},
 	[TEXT_SELF_SEAM] = {"別の端まで線を引こう", "Draw on to a different edge"},
@@ -98,6 +115,9 @@ static const struct {
 	{"small", TEXT_SMALL},
 	{"short", TEXT_SMALL},
 	{"line is open", TEXT_ENDS_APART},
+	{"corner already", TEXT_POINT_NEAR},
+	{"two corners", TEXT_LAST_POINTS},
+	{"axis", TEXT_NO_FOLD},
 	{"begin", TEXT_OVERSKETCH},
 	{"sewn already", TEXT_EDGE_SEWN},
 	{"sewn to itself", TEXT_SELF_SEAM},
@@ -150,6 +170,19 @@ static enum text hint_mark(const struct ui *ui, const struct session *session)
 	return cloth > 0 && cloth == body ? TEXT_HINT_MARK_PAIR : TEXT_HINT_MARK_CLOTH;
 }
 
+static enum text hint_draw(const struct ui *ui)
+{
+	if (ui->drawing == DRAW_BOX || ui->drawing == DRAW_ROUND)
+		return TEXT_HINT_BOX;
+	if (ui->drawing == DRAW_POINTS && ui->piece < 0)
+		return TEXT_HINT_POINTS_NONE;
+	if (ui->drawing == DRAW_POINTS)
+		return ui->corner >= 0 ? TEXT_HINT_CORNER : TEXT_HINT_POINTS;
+	if (ui->shaping.shows || ui->hover_grip != GRIP_NONE)
+		return TEXT_HINT_GRIPS;
+	return ui->piece >= 0 ? TEXT_HINT_DRAW_SELECTED : TEXT_HINT_DRAW;
+}
+
 /* The gravest of what the wrap found, in this order. */
 static enum text hint_diagnosis(const struct diagnoses *diagnoses, int mark[2])
 {
@@ -183,7 +216,7 @@ enum text text_hint(const struct ui *ui, const struct session *session, int mark
 		return TEXT_HINT_RELAX;
 	switch (ui->step) {
 	case STEP_DRAW:
-		return ui->piece >= 0 ? TEXT_HINT_DRAW_SELECTED : TEXT_HINT_DRAW;
+		return hint_draw(ui);
 	case STEP_SEW:
 		return ui->seam >= 0 ? TEXT_HINT_SEW_SELECTED : TEXT_HINT_SEW;
 	case STEP_MARK:

@@ -4,6 +4,9 @@
  *   gesture_stroke.c a trembling hand's samples -> an even line
  *   tool_pick.c      what lies under a position
  *   tool_<step>.c    begin, move, end, tap of that step; the step's buttons
+ *   tool_shape.c     grips of the selected piece, ready shapes: what the pen is about to make of it
+ *   tool_points.c    corners and edges of the selected piece
+ *   tool_snap.c      where a point would rather lie
  */
 #ifndef TOOL_H
 #define TOOL_H
@@ -86,15 +89,58 @@ struct v2 seam_badge_px(const struct ui *ui, const struct pattern *pattern, cons
 			int side);
 int seam_of_edge(const struct pattern *pattern, struct edge_ref edge); /* or -1 */
 
+/* The outline's corner within reach of a position; -1: none. */
+int pick_corner(const struct ui *ui, const struct piece *piece, struct v2 position_px);
+
 /* The sheet rectangle that a piece covers. */
 void piece_bounds(const struct piece *piece, struct v2 *low_mm, struct v2 *high_mm);
 
 /* ---- one file a step ---- */
 
 enum gesture tool_draw_begin(struct tool *tool);
+void tool_name_piece(struct tool *tool, struct edit *edit);
+void tool_select_at(struct tool *tool); /* the piece under the contact's start, or none */
 void tool_draw_end(struct tool *tool);
 void tool_draw_tap(struct tool *tool);
 void tool_draw_target(struct tool *tool, enum target target);
+
+/* ---- tool_shape.c ---- */
+
+/* Where a grip of the box round a piece is seen (GRIP_SIZE, GRIP_WIDTH, GRIP_TURN). */
+struct v2 grip_px(const struct ui *ui, const struct piece *piece, enum grip grip, int which);
+/* Is there room for grips in the middle of those sides? */
+bool grip_fits(const struct ui *ui, const struct piece *piece, int side);
+enum grip pick_grip(const struct ui *ui, const struct session *session, struct v2 position_px,
+		    int *which);
+
+/* Takes hold of something: GESTURE_SHAPE. */
+enum gesture shape_begin(struct tool *tool, enum grip grip, int which);
+void tool_shape_move(struct tool *tool);
+void tool_shape_end(struct tool *tool);
+
+/* The draft becomes the document after the edit. */
+void shape_try(struct tool *tool, const struct edit *edit);
+
+/* What the sheet shows: the draft of a shape, or the document. */
+static inline const struct document *shown_document(const struct ui *ui,
+						    const struct session *session)
+{
+	return ui->shaping.shows ? &ui->shaping.draft : &session->document;
+}
+
+/* ---- tool_points.c ---- */
+
+enum gesture tool_points_begin(struct tool *tool);
+enum grip points_hover(const struct tool *tool, int *which); /* what the pen would take */
+void tool_points_move(struct tool *tool);
+void tool_points_tap(struct tool *tool);
+void tool_points_delete(struct tool *tool);
+
+/* ---- tool_snap.c ---- */
+
+/* A corner's place on the sheet, drawn to other corners, to the axis of a symmetric piece, and to
+ * lines through its neighbours at multiples of 45 degrees. Notes the lines in ui->shaping. */
+struct v2 snap_corner(struct tool *tool, const struct piece *piece, int corner, struct v2 sheet_mm);
 
 enum gesture tool_sew_begin(struct tool *tool);
 void tool_sew_move(struct tool *tool);

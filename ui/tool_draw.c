@@ -25,6 +25,14 @@ enum gesture tool_draw_begin(struct tool *tool)
 {
 	struct ui *ui = tool->ui;
 	const struct pattern *pattern = &tool->session->document.pattern;
+	int which = 0;
+	if (ui->drawing == DRAW_POINTS)
+		return tool_points_begin(tool);
+	if (ui->drawing != DRAW_PENCIL)
+		return shape_begin(tool, GRIP_READY, 0);
+	enum grip grip = pick_grip(ui, tool->session, ui->start_px, &which);
+	if (grip != GRIP_NONE)
+		return shape_begin(tool, grip, which);
 	if (near_outline(ui, tool->session, ui->start_px))
 		return GESTURE_OVERSKETCH;
 	int piece = pattern_pick(pattern, view_sheet_mm(&ui->view, ui->start_px), 0);
@@ -53,15 +61,15 @@ static void put_outline(struct edit *edit, const struct piece *piece)
 	}
 }
 
-static void name_piece(const struct session *session, char name[NAME_BYTES_MAX])
+void tool_name_piece(struct tool *tool, struct edit *edit)
 {
 	int number = 1;
-	while (number < PIECES_MAX && session->document.pattern.piece[number - 1].used)
+	while (number < PIECES_MAX && tool->session->document.pattern.piece[number - 1].used)
 		number++;
-	memcpy(name, "piece-", 6);
-	name[6] = (char)('0' + number / 10);
-	name[7] = (char)('0' + number % 10);
-	name[8] = 0;
+	memcpy(edit->name, "piece-", 6);
+	edit->name[6] = (char)('0' + number / 10);
+	edit->name[7] = (char)('0' + number % 10);
+	edit->name[8] = 0;
 }
 
 static void new_piece(struct tool *tool)
@@ -77,7 +85,7 @@ static void new_piece(struct tool *tool)
 	struct edit *edit = edit_push(tool->edits, EDIT_PIECE);
 	if (!edit)
 		return;
-	name_piece(tool->session, edit->name);
+	tool_name_piece(tool, edit);
 	edit->i[0] = ui->swatch;
 	edit->f[0] = piece.position_mm.x;
 	edit->f[1] = piece.position_mm.y;
@@ -141,7 +149,16 @@ void tool_draw_end(struct tool *tool)
 
 void tool_draw_tap(struct tool *tool)
 {
+	if (tool->ui->drawing == DRAW_POINTS)
+		tool_points_tap(tool);
+	else
+		tool_select_at(tool);
+}
+
+void tool_select_at(struct tool *tool)
+{
 	struct ui *ui = tool->ui;
+	ui->corner = -1;
 	struct v2 sheet_mm = view_sheet_mm(&ui->view, ui->start_px);
 	ui->piece = pattern_pick(&tool->session->document.pattern, sheet_mm, 0);
 }
@@ -216,10 +233,33 @@ static void push_for_piece(struct tool *tool, enum edit_kind kind, int argument)
 	edit->i[1] = argument;
 }
 
+/* Symmetric about the middle of its breadth; or no longer. */
+static void fold(struct tool *tool, const struct piece *piece)
+{
+	float low = piece->point_mm[0].x, high = low;
+	for (int i = 1; i < piece->point_count; i++) {
+		low = float_min(low, piece->point_mm[i].x);
+		high = float_max(high, piece->point_mm[i].x);
+	}
+	struct edit *edit = edit_push(tool->edits, EDIT_FOLD);
+	if (!edit)
+		return;
+	edit->i[0] = tool->ui->piece;
+	edit->i[1] = !piece->symmetric;
+	edit->f[0] = 0.5f * (low + high);
+	edit->f[1] = 0.0f;
+	edit->f[2] = 0.5f * PI_F;
+}
+
 void tool_draw_target(struct tool *tool, enum target target)
 {
 	struct ui *ui = tool->ui;
 	bool swatch = target >= TARGET_SWATCH_0 && target <= TARGET_SWATCH_7;
+	if (target >= TARGET_TOOL_PENCIL && target <= TARGET_TOOL_ROUND) {
+		ui->drawing = (enum drawing)(target - TARGET_TOOL_PENCIL);
+		ui->corner = -1;
+		return;
+	}
 	if (swatch)
 		ui->swatch = (int)target - TARGET_SWATCH_0;
 	if (!piece_used(tool->session, ui->piece)) {
@@ -234,6 +274,10 @@ void tool_draw_target(struct tool *tool, enum target target)
 		turn_over(tool, piece);
 	} else if (target == TARGET_MIRROR) {
 		push_for_piece(tool, EDIT_MIRROR, 0);
+	} else if (target == TARGET_FOLD) {
+		fold(tool, piece);
+	} else if (target == TARGET_DELETE && ui->corner >= 0) {
+		tool_points_delete(tool);
 	} else if (target == TARGET_DELETE) {
 		push_for_piece(tool, EDIT_DELETE, 0);
 	} else if (target == TARGET_COPY) {

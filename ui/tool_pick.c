@@ -3,6 +3,7 @@
 #include "tool.h"
 
 static const float mark_reach_mm = 3.0f, badge_reach_mm = 5.0f, pin_reach_mm = 4.0f;
+static const float corner_reach_mm = 4.5f;
 static const float edge_tie_mm = 1.5f; /* nearer than this to each other: the upper piece */
 static const float hidden_m = 0.03f;   /* a pin so far behind the body's surface is hidden */
 static const float sunk_m = 0.004f;    /* cloth may sink so deep between its vertices */
@@ -33,6 +34,22 @@ bool pick_edge(const struct ui *ui, const struct session *session, struct v2 pos
 		*fraction = along;
 	}
 	return best_piece >= 0;
+}
+
+int pick_corner(const struct ui *ui, const struct piece *piece, struct v2 position_px)
+{
+	float best = tool_px(ui, corner_reach_mm);
+	int corner = -1;
+	for (int i = 0, k = 0; i < piece->point_count; i++) {
+		struct v2 at = view_sheet_px(&ui->view, piece_to_sheet(piece, piece->point_mm[i]));
+		float distance = v2_distance(at, position_px);
+		if (piece->corner[i] && distance < best) {
+			best = distance;
+			corner = k;
+		}
+		k += piece->corner[i];
+	}
+	return corner;
 }
 
 int seam_of_edge(const struct pattern *pattern, struct edge_ref edge)

@@ -89,6 +89,14 @@ void tool_sew_target(struct tool *tool, enum target target)
 		return;
 	}
 	const struct seam *seam = &tool->session->document.pattern.seam[ui->seam];
+	if (target == TARGET_EVEN) {
+		struct edit *edit = edit_push(tool->edits, EDIT_EVEN);
+		if (edit) {
+			edit->i[0] = ui->seam;
+			edit->i[1] = !seam->even;
+		}
+		return;
+	}
 	push_unsew(tool, ui->seam);
 	if (target == TARGET_SWAP)
 		push_sew(tool, seam->a, seam->b, !seam->swapped);

@@ -3,12 +3,14 @@
 
 enum { NOTICE_FRAMES = 4 * FRAME_RATE_HZ };
 
+static const float zoom_step = 1.6f;
+
 void ui_init(struct ui *ui, int width, int height)
 {
 	memset(ui, 0, sizeof *ui);
 	layout_make(&ui->layout, width, height, STEP_DRAW, false);
 	view_init(&ui->view, &ui->layout);
-	ui->piece = ui->seam = -1;
+	ui->piece = ui->seam = ui->corner = -1;
 	ui->sew_from.piece = ui->sew_to.piece = -1;
 	ui->hover_piece = ui->hover_edge = ui->hover_seam = ui->hover_triangle = -1;
 }
@@ -17,6 +19,7 @@ void ui_step(struct ui *ui, enum step step)
 {
 	ui->step = step;
 	ui->erase = false;
+	ui->corner = -1;
 	ui->pin_toggled &= step >= STEP_DRESS;
 	layout_make(&ui->layout, ui->layout.width, ui->layout.height, step, ui->left_handed);
 }
@@ -80,12 +83,16 @@ bool ui_useful(const struct ui *ui, const struct session *session, enum target t
 	case TARGET_COPY:
 	case TARGET_TURN_OVER:
 	case TARGET_MIRROR:
+	case TARGET_FOLD:
 		return piece_used(session, ui->piece);
 	case TARGET_DELETE:
 		return ui->step == STEP_SEW ? seam_selected(ui, session)
 					    : piece_used(session, ui->piece);
 	case TARGET_SWAP:
+	case TARGET_EVEN:
 		return seam_selected(ui, session);
+	case TARGET_ZOOM_OUT:
+		return ui->zoomed;
 	case TARGET_ERASE:
 		return any_marks(&session->document.marks);
 	case TARGET_WRAP:
@@ -114,6 +121,31 @@ static void press_history(struct tool *tool, enum edit_kind kind, int steps)
 {
 	if (steps > 0)
 		edit_push(tool->edits, kind);
+}
+
+/* Nearer to the selected piece, or to the middle of what is seen. */
+static void zoom_in(struct tool *tool)
+{
+	struct ui *ui = tool->ui;
+	struct v2 about = ui->view.sheet_centre_mm, low, high;
+	if (piece_used(tool->session, ui->piece)) {
+		piece_bounds(&tool->session->document.pattern.piece[ui->piece], &low, &high);
+		about = v2_lerp(low, high, 0.5f);
+	}
+	if (!ui->zoomed || v2_distance(about, ui->view.sheet_centre_mm) > 0.0f)
+		ui->view.sheet_centre_mm = v2_lerp(ui->view.sheet_centre_mm, about, 0.7f);
+	view_sheet_zoom(&ui->view, zoom_step, about);
+	ui->zoomed = true;
+}
+
+/* All of the pattern again: the paper as it was at first, which grows as far as it must. */
+static void zoom_out(struct ui *ui)
+{
+	struct view first;
+	view_init(&first, &ui->layout);
+	ui->view.sheet_centre_mm = first.sheet_centre_mm;
+	ui->view.sheet_px_per_mm = first.sheet_px_per_mm;
+	ui->zoomed = false;
 }
 
 void gesture_target(struct tool *tool, enum target target)
@@ -169,7 +201,14 @@ void gesture_target(struct tool *tool, enum target target)
 	case TARGET_COUNT:
 		break;
 	case TARGET_SWAP:
+	case TARGET_EVEN:
 		tool_sew_target(tool, target);
+		break;
+	case TARGET_ZOOM_IN:
+		zoom_in(tool);
+		break;
+	case TARGET_ZOOM_OUT:
+		zoom_out(ui);
 		break;
 	case TARGET_DELETE:
 		if (ui->step == STEP_SEW)
@@ -243,6 +282,9 @@ static void follow_document(struct ui *ui, const struct session *session)
 		ui->seam = lowest_bit(seams & ~ui->seams_seen);
 	if (ui->piece >= 0 && !(pieces >> ui->piece & 1))
 		ui->piece = -1;
+	if (ui->piece < 0 ||
+	    ui->corner >= piece_edge_count(&session->document.pattern.piece[ui->piece]))
+		ui->corner = -1;
 	if (ui->seam >= 0 && !(seams >> ui->seam & 1))
 		ui->seam = -1;
 	ui->select_new = false;
@@ -278,7 +320,7 @@ static void follow_use(struct ui *ui, const struct session *session)
 static void follow_sheet(struct ui *ui, const struct session *session)
 {
 	const struct pattern *pattern = &session->document.pattern;
-	if (ui->gesture != GESTURE_NONE)
+	if (ui->gesture != GESTURE_NONE || ui->zoomed)
 		return;
 	for (int p = 0; p < PIECES_MAX; p++) {
 		struct v2 low, high;

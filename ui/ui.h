@@ -53,7 +53,23 @@ enum target {
 	TARGET_RELAX, /* twins of the real buttons */
 	TARGET_SWATCH_0,
 	TARGET_SWATCH_7 = TARGET_SWATCH_0 + 7,
+	TARGET_TOOL_PENCIL, /* step 1: what the pen does on the sheet, as enum drawing has it */
+	TARGET_TOOL_POINTS,
+	TARGET_TOOL_BOX,
+	TARGET_TOOL_ROUND,
+	TARGET_FOLD,     /* step 1: the selected piece is symmetric */
+	TARGET_EVEN,     /* step 2: the selected seam's edges are kept equally long */
+	TARGET_ZOOM_OUT, /* until all of the pattern is seen */
+	TARGET_ZOOM_IN,
 	TARGET_COUNT,
+};
+
+/* What the pen does on the sheet in step 1. */
+enum drawing {
+	DRAW_PENCIL, /* outlines; the selected piece has grips */
+	DRAW_POINTS, /* corners and edges of the selected piece; the paper moves */
+	DRAW_BOX,
+	DRAW_ROUND,
 };
 
 struct layout {
@@ -112,6 +128,10 @@ struct v3 view_eye(const struct view *view);
 struct v2 view_sheet_mm(const struct view *view, struct v2 position_px);
 struct v2 view_sheet_px(const struct view *view, struct v2 sheet_mm);
 
+/* Nearer by a factor (below 1: farther), about a sheet place that stays where it is seen. From 0.4
+ * to 16 times the first scale. */
+void view_sheet_zoom(struct view *view, float factor, struct v2 about_mm);
+
 /* Widens the sheet (never narrows it) until the rectangle lies within the pane. */
 void view_sheet_show(struct view *view, struct v2 low_mm, struct v2 high_mm);
 
@@ -122,7 +142,8 @@ enum gesture {
 	GESTURE_TRACKBALL,
 	GESTURE_PIECE, /* drawing an outline */
 	GESTURE_OVERSKETCH,
-	GESTURE_MOVE, /* moving a piece */
+	GESTURE_MOVE,  /* moving a piece */
+	GESTURE_SHAPE, /* a grip, a corner or an edge of the selected piece; a ready shape */
 	GESTURE_SEW,
 	GESTURE_MARK_CLOTH,
 	GESTURE_MARK_BODY,
@@ -131,6 +152,34 @@ enum gesture {
 	GESTURE_ERASE,
 	GESTURE_PAN,
 	GESTURE_IDLE, /* touching, and nothing comes of it */
+};
+
+/* What GESTURE_SHAPE has hold of. */
+enum grip {
+	GRIP_NONE,
+	GRIP_SIZE,   /* a corner of the box round the piece: 0..3, counter-clockwise from low */
+	GRIP_WIDTH,  /* a side of that box: 0 the lower one, on counter-clockwise */
+	GRIP_TURN,   /* above the box */
+	GRIP_CORNER, /* of the outline, by number */
+	GRIP_EDGE,
+	GRIP_READY, /* the far corner of a new box or ellipse */
+};
+
+enum { GUIDES_MAX = 2 };
+
+/* The edit that a pen in GESTURE_SHAPE would make if it were lifted now. */
+struct shaping {
+	bool shows; /* draft is drawn in place of the document */
+	enum grip grip;
+	int which;
+	struct edit edit;
+	const char *fault; /* why it would be refused */
+	uint32_t changed;  /* pieces of the draft that differ */
+	float turned_rad;  /* GRIP_TURN: the piece's turn */
+	struct v2 size_mm; /* of the piece, or of the ready shape */
+	int guide_count;   /* lines that the point has snapped to, on the sheet */
+	struct v2 guide_mm[GUIDES_MAX][2];
+	struct document draft;
 };
 
 struct ui {
@@ -143,7 +192,10 @@ struct ui {
 	bool pin_mode; /* pin_toggled by the twin, or the real button is held */
 	bool pin_toggled;
 	int piece, seam; /* selected; -1: none */
-	int swatch;      /* of the next piece */
+	int corner;      /* of the selected piece, DRAW_POINTS; -1: none */
+	enum drawing drawing;
+	bool zoomed; /* by hand: the paper no longer grows by itself */
+	int swatch;  /* of the next piece */
 
 	/* The pen, and the contact in progress: raw samples, thinned never. */
 	struct v2 pen_px; /* last position */
@@ -163,6 +215,7 @@ struct ui {
 
 	/* What the gesture in progress is about. */
 	struct v2 move_mm; /* GESTURE_MOVE: shift of the piece so far */
+	struct shaping shaping;
 	struct {
 		int piece, edge; /* -1: none */
 	} sew_from, sew_to;
@@ -174,6 +227,8 @@ struct ui {
 	/* What lies under the pen: for highlights only. -1: nothing. */
 	enum target hover_target;
 	int hover_piece, hover_edge, hover_seam;
+	enum grip hover_grip; /* a grip or a point of the selected piece */
+	int hover_which;
 	int hover_triangle; /* garment.triangle under the pen, in front of the body */
 	bool hover_body;
 	struct v3 hover_m; /* the point on cloth or body */

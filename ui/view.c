@@ -6,6 +6,8 @@
  */
 #include "ui.h"
 
+#define SHEET_WIDTH_MM 1760.0f /* of the whole pane, at first */
+
 static struct v2 rect_centre(struct rect rect)
 {
 	return (struct v2){(float)rect.x + 0.5f * (float)rect.w,
@@ -34,7 +36,7 @@ void view_init(struct view *view, const struct layout *layout)
 	view->distance_m = 4.3f;
 	view->centre_m = (struct v3){0.0f, 0.84f, 0.0f};
 	view_look(view, 0.0f);
-	view->sheet_px_per_mm = (float)layout->right.w / 1760.0f;
+	view->sheet_px_per_mm = (float)layout->right.w / SHEET_WIDTH_MM;
 }
 
 /* A position on the trackball, in camera axes: a sphere that fills the pane's smaller side, and
@@ -120,6 +122,14 @@ struct v2 view_sheet_px(const struct view *view, struct v2 sheet_mm)
 	struct v2 d = v2_sub(sheet_mm, view->sheet_centre_mm);
 	return (struct v2){centre.x + d.x * view->sheet_px_per_mm,
 			   centre.y - d.y * view->sheet_px_per_mm};
+}
+
+void view_sheet_zoom(struct view *view, float factor, struct v2 about_mm)
+{
+	float before = view->sheet_px_per_mm, first = (float)view->sheet_pane.w / SHEET_WIDTH_MM;
+	view->sheet_px_per_mm = float_clamp(before * factor, 0.4f * first, 16.0f * first);
+	float share = before / view->sheet_px_per_mm;
+	view->sheet_centre_mm = v2_lerp(about_mm, view->sheet_centre_mm, share);
 }
 
 void view_sheet_show(struct view *view, struct v2 low_mm, struct v2 high_mm)
