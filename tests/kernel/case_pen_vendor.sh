@@ -32,4 +32,5 @@ grep -q '^# vendor 0 uclogic-2 50800 31750 8191$' "$folder/recorded" || fail "th
 grep -q '^# tablet 0 254.00 158.75$' "$folder/recorded" || fail "the tape has no size"
 touches=$("$kitsuke" replay --samples "$folder/recorded" | grep -c '"touch"')
 [ "$touches" = 50 ] || fail "$touches samples of 50 touch"
+cat "$out/pen"
 finish

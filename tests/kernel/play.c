@@ -3,8 +3,9 @@
  *   play TAPE [CHIP] [--speed N]
  *
  * A device comes with its first report, and waits until a program reads it; after that reports
- * come at the tape's pace, N times as fast. "# unplug" on the tape pulls the device out.
- * CHIP is the gpio-sim chip's folder, in which line N is button N, low when pressed. */
+ * come at the tape's pace, N times as fast. "# unplug" on the tape pulls the device out. How long
+ * it takes until a device is read, and until its reader has let go of it, is printed. CHIP is the
+ * gpio-sim chip's folder, in which line N is button N, low when pressed. */
 #include "play.h"
 
 #include "pen.h"
@@ -26,6 +27,8 @@ enum {
 struct player {
 	struct tape tape;
 	int fd[TAPE_DEVICES_MAX]; /* on /dev/uhid; -1: unplugged */
+	char node[TAPE_DEVICES_MAX][64];
+	char reader[32]; /* the process that reads them */
 	const char *chip;
 	uint8_t held;
 	double speed;
@@ -86,34 +89,39 @@ static bool node_find(int device, char node[64])
 	}
 	if (list)
 		closedir(list);
+	node[found ? strlen(node) : 0] = 0;
 	return found;
 }
 
+/* A node that is gone is still one to who has it open: "/dev/hidraw0 (deleted)". */
 static bool process_reads(const char *process, const char *node)
 {
 	char path[560], target[64];
 	bool found = false;
+	size_t length_of_node = strlen(node);
 	snprintf(path, sizeof path, "/proc/%s/fd", process);
 	DIR *list = opendir(path);
 	for (struct dirent *entry; list && !found && (entry = readdir(list));) {
 		snprintf(path, sizeof path, "/proc/%s/fd/%s", process, entry->d_name);
 		ssize_t length = readlink(path, target, sizeof target - 1);
 		target[length > 0 ? length : 0] = 0;
-		found = !strcmp(target, node);
+		found = !strncmp(target, node, length_of_node) &&
+			(!target[length_of_node] || target[length_of_node] == ' ');
 	}
 	if (list)
 		closedir(list);
 	return found;
 }
 
-static bool is_read(int device)
+static bool is_read(const char *node, char reader[32])
 {
-	char node[64];
 	bool found = false;
-	DIR *list = node_find(device, node) ? opendir("/proc") : NULL;
-	for (struct dirent *entry; list && !found && (entry = readdir(list));)
+	DIR *list = node[0] ? opendir("/proc") : NULL;
+	for (struct dirent *entry; list && !found && (entry = readdir(list));) {
 		found = entry->d_name[0] >= '1' && entry->d_name[0] <= '9' &&
 			process_reads(entry->d_name, node);
+		snprintf(reader, 32, "%.31s", entry->d_name);
+	}
 	if (list)
 		closedir(list);
 	return found;
@@ -125,12 +133,14 @@ static void reader_wait(struct player *player, int device)
 	int64_t begin_us = play_clock_us(), since_us = begin_us;
 	while (play_clock_us() - since_us < SETTLED_MS * 1000) {
 		events_read(player, device);
-		if (!is_read(device))
+		bool there = player->node[device][0] || node_find(device, player->node[device]);
+		if (!there || !is_read(player->node[device], player->reader))
 			since_us = play_clock_us();
 		if (play_clock_us() - begin_us > READER_MS * 1000)
 			play_complain("nobody reads device %d", device);
 		play_sleep_until(play_clock_us() + 20000);
 	}
+	printf("device %d: read after %.1f ms\n", device, 1e-3 * (double)(since_us - begin_us));
 }
 
 static void tablet_plug(struct player *player, int device)
@@ -148,6 +158,7 @@ static void tablet_plug(struct player *player, int device)
 	player->fd[device] = open("/dev/uhid", O_RDWR | O_NONBLOCK | O_CLOEXEC);
 	if (player->fd[device] < 0)
 		play_fail("/dev/uhid");
+	player->node[device][0] = 0;
 	event_write(player->fd[device], &event);
 	int64_t begin_us = play_clock_us();
 	reader_wait(player, device);
@@ -157,9 +168,16 @@ static void tablet_plug(struct player *player, int device)
 static void tablet_unplug(struct player *player, int device)
 {
 	struct uhid_event event = {.type = UHID_DESTROY};
+	int64_t begin_us = play_clock_us();
 	event_write(player->fd[device], &event);
 	close(player->fd[device]);
 	player->fd[device] = -1;
+	while (process_reads(player->reader, player->node[device]) &&
+	       play_clock_us() - begin_us < READER_MS * 1000)
+		play_sleep_until(play_clock_us() + 500);
+	printf("device %d: let go after %.1f ms\n", device,
+	       1e-3 * (double)(play_clock_us() - begin_us));
+	player->start_us += play_clock_us() - begin_us;
 }
 
 static void tablet_send(struct player *player, int device, const uint8_t *bytes, int size)

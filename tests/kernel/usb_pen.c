@@ -5,7 +5,8 @@
  * Plugged in from the start to the end of this program. It plays the tape when a line comes on
  * stdin; --string gives what a string descriptor answers beside those of every device;
  * --mute-until: not before the host has asked for that string, as tablets do that have to be
- * switched to their own protocol. Prints each of those strings when it is asked for. */
+ * switched to their own protocol. Prints each of those strings when it is asked for, and
+ * how long that was after the host had configured us. */
 #include "play.h"
 
 #include <errno.h>
@@ -33,6 +34,7 @@ struct pen {
 	struct answer answer[STRINGS_MAX];
 	int answer_count, mute_until; /* 0: speaks at once */
 	int endpoint;                 /* -1: the host has not configured us yet */
+	int64_t configured_us;
 
 	pthread_mutex_t lock;
 	pthread_cond_t changed;
@@ -131,7 +133,8 @@ static int text_descriptor(const char *text, uint8_t *to)
 
 static void asked(struct pen *pen, int index)
 {
-	printf("asked for string %d\n", index);
+	printf("asked for string %d, %.0f ms after it was configured\n", index,
+	       1e-3 * (double)(play_clock_us() - pen->configured_us));
 	fflush(stdout);
 	pthread_mutex_lock(&pen->lock);
 	pen->spoken_to |= index == pen->mute_until;
@@ -179,6 +182,7 @@ static void configure(struct pen *pen)
 		play_fail("raw-gadget: configuring");
 	pthread_mutex_lock(&pen->lock);
 	pen->endpoint = endpoint;
+	pen->configured_us = play_clock_us();
 	pthread_cond_broadcast(&pen->changed);
 	pthread_mutex_unlock(&pen->lock);
 }
