@@ -6,6 +6,7 @@ const struct board board_default = {
 	.button_line = {"wrap", "pin", "relax"},
 	.button_active_low = true,
 	.idle_s = 180,
+	.display_auto = true,
 };
 
 const char board_text[] =
@@ -45,7 +46,8 @@ const char board_text[] =
 	"# How the tablet lies, degrees clockwise: 0, 90, 180 (for a left hand) or 270.\n"
 	"tablet_rotation = 0\n"
 	"# yes: the tablet is the display. Its pen then follows the picture's rotation.\n"
-	"pen_display = no\n"
+	"# auto: what libwacom's data says about the tablet's model.\n"
+	"pen_display = auto\n"
 	"# Crosses that were touched on a pen display, 4 to 25: for each of them where the pen "
 	"was\n"
 	"# seen and where the cross stands, x y x y in pixels of the display; none: as built.\n"
@@ -147,6 +149,14 @@ static bool value_yes(struct reader *r, bool *value)
 {
 	*value = !strcmp(r->value, "yes");
 	return *value || !strcmp(r->value, "no") || fault(r, "give yes or no");
+}
+
+static bool value_display(struct reader *r)
+{
+	r->board->display_auto = !strcmp(r->value, "auto");
+	r->board->mount.display = !strcmp(r->value, "yes");
+	return r->board->display_auto || r->board->mount.display || !strcmp(r->value, "no") ||
+	       fault(r, "give auto, yes or no");
 }
 
 static bool value_budget(struct reader *r)
@@ -292,7 +302,7 @@ static bool key_read(struct reader *r, enum key key)
 	case KEY_TABLET_ROTATION:
 		return value_rotation(r, &board->mount.degrees);
 	case KEY_PEN_DISPLAY:
-		return value_yes(r, &board->mount.display);
+		return value_display(r);
 	case KEY_CALIBRATION:
 		return value_calibration(r);
 	case KEY_COUNT:

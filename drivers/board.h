@@ -28,7 +28,8 @@ struct board {
 	int tablet_vendor, tablet_product;       /* take this tablet only; 0, 0: any */
 	float tablet_width_mm, tablet_height_mm; /* 0: what the tablet itself says */
 	struct pen_mount
-		mount; /* how it lies; the panel's size and turn are the display's to say */
+		mount;     /* how it lies; the panel's size and turn are the display's to say */
+	bool display_auto; /* whether it is the display is its model's to say */
 	float calibration_rms_px, calibration_worst_px; /* what the crosses' map leaves */
 };
 

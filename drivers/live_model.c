@@ -1,5 +1,5 @@
 /* What libwacom's data says about a tablet. */
-#include "live.h"
+#include "live_private.h"
 
 #include <libwacom/libwacom.h>
 
@@ -26,4 +26,21 @@ bool live_model_find(const struct live_node *node, float *width_mm, float *heigh
 	if (models)
 		libwacom_database_destroy(models);
 	return device != NULL;
+}
+
+const struct live_model *live_model_remembered(struct live_models *models,
+					       const struct live_node *node)
+{
+	const struct tape_device *told = &node->told;
+	for (int i = 0; i < MODELS_MAX; i++) {
+		const struct live_model *model = &models->model[i];
+		if (i < models->asked && model->vendor == told->vendor &&
+		    model->product == told->product && !strcmp(model->name, told->name))
+			return model;
+	}
+	struct live_model *model = &models->model[models->asked++ % MODELS_MAX];
+	*model = (struct live_model){.vendor = told->vendor, .product = told->product};
+	memcpy(model->name, told->name, sizeof model->name);
+	model->known = live_model_find(node, &model->width_mm, &model->height_mm, &model->display);
+	return model;
 }

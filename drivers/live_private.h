@@ -14,6 +14,25 @@ enum {
 	SIZE_PLUGGED = -1,
 };
 
+/* What libwacom's data said of the last tablets that were asked about: it is large, and read anew
+ * each time. */
+enum { MODELS_MAX = 4 };
+
+struct live_model {
+	int vendor, product;
+	char name[128];
+	bool known, display;
+	float width_mm, height_mm;
+};
+
+struct live_models {
+	long asked;
+	struct live_model model[MODELS_MAX];
+};
+
+const struct live_model *live_model_remembered(struct live_models *models,
+					       const struct live_node *node);
+
 struct tablet {
 	int fd; /* -1: free */
 	bool own;
@@ -42,7 +61,8 @@ struct live {
 	struct board board;
 	struct udev *udev;
 	struct udev_monitor *monitor;
-	struct live_node *nodes; /* the searcher's */
+	struct live_node *nodes; /* the searcher's, and: */
+	struct live_models models;
 	struct live_setup *setup;
 
 	pthread_mutex_t lock; /* for all below */

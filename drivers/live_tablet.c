@@ -307,17 +307,21 @@ static void text_set(struct live *live, const char *name, const char *text)
 	pthread_mutex_unlock(&live->lock);
 }
 
-/* Where neither the board nor the tablet tells a size, libwacom's is better than a guess. */
-static void size_find(struct live_node *node)
+/* What libwacom's data adds: a size where neither the board nor the tablet tells one, and whether
+ * it is the display, unless the board says. */
+static void model_find(struct live *live, struct live_node *node)
 {
-	float width_mm, height_mm;
-	bool display;
-	bool told = node->told.width_mm > 0.0f || node->speaks || !node->layout_count ||
-		    node->layout[0].width_mm > 0.0f;
-	if (told || !live_model_find(node, &width_mm, &height_mm, &display))
+	bool automatic = live->board.display_auto;
+	bool sized = node->told.width_mm > 0.0f || node->speaks || !node->layout_count ||
+		     node->layout[0].width_mm > 0.0f;
+	if (sized && !automatic)
 		return;
-	node->told.width_mm = width_mm;
-	node->told.height_mm = height_mm;
+	const struct live_model *model = live_model_remembered(&live->models, node);
+	node->told.display = automatic && model->known && model->display;
+	if (!sized && model->known) {
+		node->told.width_mm = model->width_mm;
+		node->told.height_mm = model->height_mm;
+	}
 }
 
 void live_tablets_search(struct live *live)
@@ -334,7 +338,7 @@ void live_tablets_search(struct live *live)
 		int fd = open(node->path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
 		node->told.width_mm = live->board.tablet_width_mm;
 		node->told.height_mm = live->board.tablet_height_mm;
-		size_find(node);
+		model_find(live, node);
 		if (fd >= 0 && tablet_add(live, fd, true, node, NULL) < 0)
 			close(fd);
 	}

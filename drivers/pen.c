@@ -124,6 +124,12 @@ void pen_resize(struct pen *pen, int device, float width_mm, float height_mm)
 	pen->device[device].height_mm = given ? height_mm : 0.0f;
 }
 
+void pen_is_display(struct pen *pen, int device, bool display)
+{
+	MUST(device >= 0 && device < PEN_DEVICES_MAX);
+	pen->device[device].display = display;
+}
+
 /* --- samples ---------------------------------------------------------------------------------- */
 
 static void sample_give(struct pen *pen, int device, const struct pen_sample *sample,

@@ -78,6 +78,7 @@ struct pen_device {
 	struct pen_memory memory;
 	char reason[160];          /* DEVICE_UNKNOWN: why, in words */
 	float width_mm, height_mm; /* as told by pen_resize; 0: what the layout says */
+	bool display;              /* it is the panel, whatever the mount says of others */
 	uint8_t buttons_held;      /* DEVICE_BUTTONS */
 	long dropped;              /* reports too short for their layout */
 
@@ -107,7 +108,8 @@ struct pen_device {
 
 /* How tablet millimetres become screen pixels: one scale, so that a circle stays a circle. The
  * whole screen can be reached; what is over of the tablet's longer axis stays unused. The desktop's
- * mouse and pen displays go by the panel and from there by a map to the picture. */
+ * mouse and pen displays go by the panel, the whole of it, and from there by a map to the picture.
+ */
 struct pen_mapping {
 	int width_px, height_px;
 	struct pen_mount mount;
@@ -140,6 +142,9 @@ int pen_layouts_join(struct pen_layout layout[PEN_REPORTS_MAX], int count,
 /* The tablet's active area in mm, where the descriptor does not tell it or tells it wrong; 0, 0
  * goes back to the descriptor. */
 void pen_resize(struct pen *pen, int device, float width_mm, float height_mm);
+
+/* The tablet is the screen: its pen is mapped by the panel, as all are when the mount says so. */
+void pen_is_display(struct pen *pen, int device, bool display);
 
 /* Reads a descriptor only: the layouts of every pen report in it; returns their number, 0 with the
  * reason in words when there is no pen. */

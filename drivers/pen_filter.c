@@ -16,12 +16,17 @@
 #define JUMP_MM_S 3000.0f
 #define JUMP_LEAST_MM 10.0f
 
+static bool is_display(const struct pen_mapping *mapping, const struct pen_device *device)
+{
+	return !device->desktop && (mapping->mount.display || device->display);
+}
+
 /* What a device's positions lie on: the panel for a pen display and for the desktop's mouse, which
  * is never askew; else the picture. */
 static struct v2 surface_px(const struct pen_mapping *mapping, const struct pen_device *device)
 {
 	const struct pen_mount *mount = &mapping->mount;
-	if (mount->panel_width > 0 && (mount->display || device->desktop))
+	if (mount->panel_width > 0 && (is_display(mapping, device) || device->desktop))
 		return (struct v2){(float)mount->panel_width, (float)mount->panel_height};
 	return (struct v2){(float)mapping->width_px, (float)mapping->height_px};
 }
@@ -91,11 +96,15 @@ struct v2 pen_mm_to_px(const struct pen *pen, const struct pen_device *device,
 	struct v2 from_centre = turned(v2_sub(mm, v2_scale(size_mm, 0.5f)), degrees);
 	if (degrees % 180)
 		size_mm = (struct v2){size_mm.y, size_mm.x};
-	float scale = float_max(surface.x / size_mm.x, surface.y / size_mm.y);
-	struct v2 px = v2_add(v2_scale(from_centre, scale), v2_scale(surface, 0.5f));
+	struct v2 scale = {surface.x / size_mm.x, surface.y / size_mm.y};
+	/* a display's area is the panel, however exactly its size is told */
+	if (!is_display(mapping, device))
+		scale.x = scale.y = float_max(scale.x, scale.y);
+	struct v2 px = v2_add((struct v2){from_centre.x * scale.x, from_centre.y * scale.y},
+			      v2_scale(surface, 0.5f));
 	if (device->desktop && mapping->mount.panel_width > 0)
 		px = plane_map_apply(&mapping->from_panel, px);
-	else if (!device->desktop && mapping->mount.display)
+	else if (is_display(mapping, device))
 		px = plane_map_apply(&mapping->from_display, px);
 	return on_screen(px, size_px);
 }

@@ -86,6 +86,8 @@ static int write_rare(char *line, int device, const struct tape_device *descript
 	if (description->width_mm >= 1.0f && part == index++)
 		return snprintf(line, TAPE_LINE_MAX, "# tablet %d %.2f %.2f\n", device,
 				(double)description->width_mm, (double)description->height_mm);
+	if (description->display && part == index++)
+		return snprintf(line, TAPE_LINE_MAX, "# display %d\n", device);
 	if (vendor->family != PEN_BY_DESCRIPTOR && part == index++)
 		return snprintf(line, TAPE_LINE_MAX, "# vendor %d %s %d %d %d\n", device,
 				pen_family_rule(vendor->family)->word, vendor->x_maximum,

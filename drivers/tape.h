@@ -7,6 +7,7 @@
  *   # tablet 0 203.2 127.0    size in mm of device 0, where its descriptor does not tell it
  *   # mount 180 1 1920 1080 90   how the tablets lie: turn, pen display, panel, the picture's turn
  *   # cross 9612 5390 9600 5400   a cross of the display's calibration (pen_mount.h)
+ *   # display 0              device 0 is the screen
  *   # vendor 0 uclogic-2 50800 31750 8191   its maker's protocol, and its ranges of x, y, pressure
  *   D: 0
  *   R: 234 05 0d 09 02 ...      report descriptor
@@ -31,6 +32,7 @@ struct tape_device {
 	char name[128];
 	int bus, vendor, product;
 	float width_mm, height_mm; /* 0: not stated on the tape */
+	bool display;              /* it is the screen */
 	struct pen_vendor speaks;  /* its maker's protocol; PEN_BY_DESCRIPTOR: not stated */
 	int descriptor_size;
 	uint8_t descriptor[TAPE_DESCRIPTOR_MAX];

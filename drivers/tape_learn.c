@@ -43,6 +43,7 @@ void tape_learn(struct pen *pen, int device, const struct tape_device *told)
 	}
 	pen_vendor_set(pen, device, &speaks);
 	pen_resize(pen, device, width_mm, height_mm);
+	pen_is_display(pen, device, told->display);
 }
 
 /* --- dumps without a word about the device ---------------------------------------------------- */

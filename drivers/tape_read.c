@@ -250,6 +250,15 @@ static bool comment_tablet(struct reader *r)
 	return true;
 }
 
+static bool comment_display(struct reader *r)
+{
+	int64_t device = read_number(r, 10, 3);
+	if (device < 0 || device >= TAPE_DEVICES_MAX)
+		return fault(r, "it reads like # display 0, the device's number");
+	r->tape->device[device].display = true;
+	return true;
+}
+
 /* A whole turn's quarters. */
 static bool quarter(int64_t degrees)
 {
@@ -357,6 +366,8 @@ static bool line_comment(struct reader *r)
 		return comment_cross(r);
 	} else if (skip_text(r, "tablet ")) {
 		return comment_tablet(r);
+	} else if (skip_text(r, "display ")) {
+		return comment_display(r);
 	} else if (skip_text(r, "vendor ")) {
 		return comment_vendor(r);
 	} else if (skip_text(r, "unplug ")) {

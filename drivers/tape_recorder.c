@@ -18,7 +18,7 @@ static bool same_device(const struct tape_device *a, const struct tape_device *b
 	return a->speaks.family == b->speaks.family && a->speaks.x_maximum == b->speaks.x_maximum &&
 	       a->speaks.y_maximum == b->speaks.y_maximum &&
 	       a->speaks.pressure_maximum == b->speaks.pressure_maximum &&
-	       a->descriptor_size == b->descriptor_size &&
+	       a->display == b->display && a->descriptor_size == b->descriptor_size &&
 	       !memcmp(a->descriptor, b->descriptor, (size_t)a->descriptor_size);
 }
 

@@ -292,6 +292,7 @@ static void help_tape(void)
 	     "  # frames 2700                  length in frames of 1/60 s\n"
 	     "  # tablet 0 203.2 127           size of device 0 in mm, if its descriptor is "
 	     "silent\n"
+	     "  # display 0                    device 0 is the screen\n"
 	     "  # vendor 0 uclogic-2 50800 31750 8191\n"
 	     "                                 the maker's protocol of device 0, and its ranges of "
 	     "x, y, pressure\n"

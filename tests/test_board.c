@@ -22,7 +22,8 @@ static bool same(const struct board *a, const struct board *b)
 	       a->tablet_vendor == b->tablet_vendor && a->tablet_product == b->tablet_product &&
 	       a->tablet_width_mm == b->tablet_width_mm &&
 	       a->tablet_height_mm == b->tablet_height_mm && a->mount.degrees == b->mount.degrees &&
-	       a->mount.display == b->mount.display && a->mount.cross_count == b->mount.cross_count;
+	       a->mount.display == b->mount.display && a->display_auto == b->display_auto &&
+	       a->mount.cross_count == b->mount.cross_count;
 }
 
 static void check_defaults(void)
@@ -58,8 +59,11 @@ static void check_keys(void)
 	CHECK(board.tablet_vendor == 0x256c && board.tablet_product == 0x6d);
 	CHECK_NEAR(board.tablet_height_mm, 158.75, 1e-3);
 	CHECK(board.mount.degrees == 180 && board.mount.display && board.mount.cross_count == 4);
+	CHECK(!board.display_auto);
 	CHECK(board.mount.cross[0].seen_x == 10250 && board.mount.cross[3].seen_y == 105225);
 	CHECK(board.mount.cross[3].meant_y == 105000 && board.calibration_worst_px < 0.1f);
+	CHECK(read_text(&board, "pen_display = no\n", fault) && !board.display_auto);
+	CHECK(!board.mount.display);
 }
 
 static void check_faults(void)

@@ -100,6 +100,35 @@ static void the_mouse_follows_the_picture(void)
 	CHECK_NEAR(px.y, 1920.0 - 60.0, 0.02);
 }
 
+/* A display by its model, beside a tablet on the desk: each corner of it is the panel's, though its
+ * size is told in whole inches; the tablet is mapped in mm as always. */
+static void a_display_is_the_whole_panel(void)
+{
+	struct pen_mount mount = {.panel_width = 1920, .panel_height = 1080};
+	lie(1280, 720, &mount);
+	struct v2 desk = at_mm(80.0f, 50.0f);
+	CHECK_NEAR(desk.x, 320.0, 0.1);
+	CHECK_NEAR(desk.y, 360.0 - 50.0 * 4.0, 0.1);
+	pen_is_display(&pen, 0, true);
+	pen_resize(&pen, 0, 482.6f, 279.4f); /* 19 x 11 of them; the panel has 476 x 268 mm */
+	for (int i = 0; i < 4; i++) {
+		float x = i & 1 ? 0.9f : 0.1f, y = i & 2 ? 0.9f : 0.1f;
+		struct v2 px = at_mm(482.6f * x, 279.4f * y);
+		CHECK_NEAR(px.x, 1280.0f * x, 0.05);
+		CHECK_NEAR(px.y, 720.0f * y, 0.05);
+	}
+	/* and what calibrates a display calibrates this one */
+	mount.cross_count = 4;
+	for (int i = 0; i < 4; i++) {
+		int x = i & 1 ? 170000 : 20000, y = i & 2 ? 90000 : 20000;
+		mount.cross[i] = (struct pen_cross){x, y, x + 300, y - 600};
+	}
+	pen_mount(&pen, &mount);
+	struct v2 px = at_mm(241.3f, 139.7f);
+	CHECK_NEAR(px.x, 640.0 + 2.0, 0.05);
+	CHECK_NEAR(px.y, 360.0 - 4.0, 0.05);
+}
+
 /* ---- calibration ---- */
 
 /* A panel under thick glass, a little askew. */
@@ -220,6 +249,7 @@ int main(void)
 	turned_tablets();
 	pens_follow_the_picture();
 	the_mouse_follows_the_picture();
+	a_display_is_the_whole_panel();
 	calibrations_repair();
 	nonsense_is_refused();
 	return test_end();

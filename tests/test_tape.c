@@ -48,6 +48,7 @@ static void check_round_trip(void)
 					     0x6d,
 					     203.2f,
 					     127.0f,
+					     true,
 					     {PEN_UCLOGIC_2, 50800, 31750, 8191},
 					     mouse_descriptor_size,
 					     {0}};
@@ -59,6 +60,7 @@ static void check_round_trip(void)
 					     1,
 					     0.0f,
 					     0.0f,
+					     false,
 					     {PEN_BY_DESCRIPTOR, 0, 0, 0},
 					     buttons_descriptor_size,
 					     {0}};
@@ -78,6 +80,7 @@ static void check_round_trip(void)
 	CHECK(!memcmp(&in.mount, &out.mount, sizeof in.mount));
 	CHECK(!strcmp(in.device[0].name, "Pen of ours") && in.device[0].vendor == 0x256c);
 	CHECK_NEAR(in.device[0].width_mm, 203.2, 1e-4);
+	CHECK(in.device[0].display && !in.device[1].display);
 	CHECK_NEAR(in.device[0].height_mm, 127.0, 1e-4);
 	CHECK(in.device[0].speaks.family == PEN_UCLOGIC_2);
 	CHECK(in.device[0].speaks.x_maximum == 50800 && in.device[0].speaks.y_maximum == 31750);

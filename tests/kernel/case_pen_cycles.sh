@@ -17,17 +17,23 @@ held() {
   echo "$(ls "/proc/$record/fd" | wc -l) $(sed -n 's/^VmData:[^0-9]*\([0-9]*\).*/\1/p' "/proc/$record/status")"
 }
 
+# Once for what is made on first use.
+{
+  cut_tape 0 0.8
+  echo '# unplug 0 at 000000.900000'
+} >"$folder/once"
 for cycle in $(seq 0 19); do
   [ "$cycle" = 0 ] && cut_tape 0 0.8 || { cut_tape 0.5 0.8 | grep '^E:' | later "$cycle"; }
   [ "$cycle" != 0 ] || echo 'D: 0'
   printf '# unplug 0 at %013.6f\n' "$cycle.9"
 done >"$folder/cycles"
 record
+"$tools/play" "$folder/once" >/dev/null || fail "the pen could not be played once"
 before=$(held)
 "$tools/play" "$folder/cycles" >"$out/played" || fail "the pen could not be played"
 after=$(held)
 record_stop
-reports 0 <"$folder/cycles" >"$out/sent"
+cat "$folder/once" "$folder/cycles" | reports 0 >"$out/sent"
 echo "held before: $before, after: $after"
 [ "${before% *}" = "${after% *}" ] || fail "descriptors were $before, are $after"
 [ "${after#* }" -le $((${before#* } + 64)) ] || fail "memory was $before kB, is $after kB"
