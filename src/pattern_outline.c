@@ -277,14 +277,14 @@ static void settle_outline(struct piece *piece)
 		area += v2_cross(a, b);
 	}
 	struct v2 centroid = origin;
-	if (area > 0.0f)
+	if (area > 100.0f) /* twice it; else there is no middle, and no piece */
 		centroid = v2_add(origin, v2_scale(sum, 1.0f / area));
 	for (int i = 0; i < count; i++) {
 		int at = (start + i) % count;
 		turned.point_mm[i] = v2_sub(piece->point_mm[at], centroid);
 		turned.corner[i] = piece->corner[at];
 	}
-	turned.position_mm = centroid;
+	turned.position_mm = v2_add(piece->position_mm, centroid);
 	*piece = turned;
 }
 
@@ -345,12 +345,17 @@ const char *piece_from_stroke(struct piece *piece, const struct v2 *stroke_mm, i
 	made.point_count = 0;
 	made.inside_up = false;
 	made.turn_rad = 0.0f;
+	made.position_mm = (struct v2){0.0f, 0.0f};
 	if (!path_draw(&made, &path, &trace))
 		return "the outline is too intricate: draw it simpler";
 	if (piece_edge_count(&made) == 0)
 		corners_at_extremes(&made);
 	settle_outline(&made);
 	fault = piece_fault(&made);
+	if (fault && outline_untangle(&made)) {
+		settle_outline(&made);
+		fault = piece_fault(&made);
+	}
 	if (!fault)
 		*piece = made;
 	return fault;

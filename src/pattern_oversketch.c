@@ -185,8 +185,10 @@ static const char *replace_arc(struct piece *piece, const struct place *a, const
 	drop_hooks(&made, a->mm, b->mm);
 	if (!fits || made.point_count == OUTLINE_POINTS_MAX || !keep_rest(&made, piece, b, a))
 		return "the outline has too many points: draw it simpler";
-	begin_at(&made, piece->point_mm[0]);
 	const char *fault = piece_fault(&made);
+	if (fault && outline_untangle(&made))
+		fault = piece_fault(&made);
+	begin_at(&made, piece->point_mm[0]);
 	if (!fault)
 		*piece = made;
 	return fault;

@@ -65,4 +65,8 @@ void runs_find_open(struct runs *runs, const struct trace *trace);
 bool outline_add(struct piece *piece, const struct runs *runs, const struct trace *trace,
 		 struct v2 start, struct v2 end);
 
+/* Cuts off small loops. False: there is a large one, or nothing would be left; the piece is as it
+ * was. */
+bool outline_untangle(struct piece *piece);
+
 #endif

@@ -9,7 +9,7 @@
 
 enum { WIDTH_PX = 1280, HEIGHT_PX = 720, INTERVAL_US = 10000, SEEDS = 3 };
 
-static const float pull_px_s = 260.0f;
+static const float pull_px_s = 260.0f, draw_px_s = 420.0f;
 
 static const struct ui *ui_of(const struct hand *hand)
 {
@@ -211,6 +211,36 @@ static void check_round(struct hand *hand)
 	CHECK_NEAR(ui_of(hand)->view.sheet_px_per_mm, scale, 1e-6);
 }
 
+/* ---- what is not taken ---- */
+
+/* Says why in words, and shows where, until the pen comes down again. */
+static void check_refused(struct hand *hand)
+{
+	const struct refused *refused = &ui_of(hand)->refused;
+	struct v2 eight[5] = {paper_px(hand, 0.0f, 560.0f), paper_px(hand, 360.0f, 160.0f),
+			      paper_px(hand, 360.0f, 560.0f), paper_px(hand, 0.0f, 160.0f),
+			      paper_px(hand, 0.0f, 560.0f)};
+	hand_tap_target(hand, TARGET_TOOL_PENCIL);
+	hand_stroke(hand, eight, 5, draw_px_s);
+	hand_wait(hand, 0.4f);
+	CHECK(refused->shows && refused->fault == FAULT_CROSSES);
+	CHECK(ui_of(hand)->notice == TEXT_CROSSES);
+	CHECK(v2_distance(refused->at_mm[0], (struct v2){180.0f, 360.0f}) < 25.0f);
+	hand_wait(hand, 0.5f);
+	hand_stroke(hand, eight, 3, draw_px_s);
+	hand_wait(hand, 0.4f);
+	CHECK(refused->shows && refused->fault == FAULT_OPEN);
+	CHECK(v2_distance(refused->at_mm[1], (struct v2){360.0f, 560.0f}) < 25.0f);
+	hand_wait(hand, 0.5f);
+	struct v2 small[3] = {eight[0], v2_add(eight[0], (struct v2){10.5f, 0.0f}), eight[0]};
+	hand_stroke(hand, small, 3, draw_px_s);
+	hand_wait(hand, 0.4f);
+	CHECK(refused->shows && refused->fault == FAULT_SMALL);
+	hand_wait(hand, 0.5f);
+	hand_tap_target(hand, TARGET_TOOL_POINTS);
+	CHECK(!refused->shows);
+}
+
 static void play(struct kiosk *kiosk, struct hand *hand, void *memory, const char *path,
 		 uint32_t seed)
 {
@@ -228,6 +258,7 @@ static void play(struct kiosk *kiosk, struct hand *hand, void *memory, const cha
 	check_symmetry(hand);
 	check_even(hand);
 	check_round(hand);
+	check_refused(hand);
 	hand_leave(hand);
 	hand_end(hand);
 	CHECK(fclose(tape) == 0);

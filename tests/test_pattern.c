@@ -229,6 +229,34 @@ static void test_refused_strokes(void)
 	CHECK(piece.point_count == 7); /* a refused stroke changes nothing */
 }
 
+/* Small loops where the pen turned are no reason to refuse a piece; they are cut off. */
+static void test_curls(void)
+{
+	struct piece piece = {0};
+	int taken = 0;
+	move_to(0, 0);
+	line_to(400, 0);
+	line_to(430, -10);
+	line_to(425, -35);
+	line_to(400, -30);
+	line_to(405, 20);
+	line_to(400, 600);
+	line_to(370, 622);
+	line_to(360, 590);
+	line_to(410, 596);
+	line_to(0, 600);
+	line_to(0, 0);
+	for (uint32_t seed = 1; seed <= 10; seed++) {
+		draw(2.0f, 2.0f, seed);
+		if (piece_from_stroke(&piece, stroke, stroke_count))
+			continue;
+		taken++;
+		check_outline(&piece);
+		CHECK_NEAR(piece_area_mm2(&piece), 400 * 600, 6000);
+	}
+	CHECK(taken == 10);
+}
+
 static struct piece rectangle(void)
 {
 	struct piece piece = {.used = true, .point_count = 4};
@@ -237,6 +265,29 @@ static struct piece rectangle(void)
 	for (int i = 0; i < 4; i++)
 		piece.corner[i] = true;
 	return piece;
+}
+
+/* A neckline redrawn by a hand that dwells and trembles where it begins and ends: the little
+ * knots that it leaves there are no reason to refuse the line. */
+static void test_oversketch_by_a_trembling_hand(void)
+{
+	int taken = 0;
+	for (uint32_t seed = 1; seed <= 40; seed++) {
+		struct piece piece = rectangle();
+		move_to(-200, 300);
+		for (int i = 0; i < 12; i++)
+			line_to(-200 + (i % 2 ? 7.0f : -7.0f), 300 + (i % 3 ? 6.0f : -6.0f));
+		curve_to((struct v2){-100, 180}, (struct v2){100, 180}, (struct v2){190, 286});
+		for (int i = 0; i < 12; i++)
+			line_to(190 + (i % 2 ? 7.0f : -7.0f), 286 + (i % 3 ? 9.0f : -9.0f));
+		draw(2.0f, 7.0f, seed);
+		if (piece_oversketch(&piece, stroke, stroke_count))
+			continue;
+		taken++;
+		check_outline(&piece);
+		CHECK_NEAR(piece_area_mm2(&piece), 213000, 9000);
+	}
+	CHECK(taken >= 36);
 }
 
 static void test_oversketch_edge(void)
@@ -388,7 +439,9 @@ int main(void)
 	test_round();
 	test_sparse();
 	test_refused_strokes();
+	test_curls();
 	test_oversketch_edge();
 	test_oversketch_bulge();
+	test_oversketch_by_a_trembling_hand();
 	return test_end();
 }

@@ -138,6 +138,8 @@ struct rect live_extent(const struct easel *easel)
 		area = rect_join(area, rect_around(ui->start_px, ui->start_px, 20.0 * u));
 	if (ui->gesture == GESTURE_MOVE && piece_used(easel->session, ui->piece))
 		area = rect_join(area, piece_area(easel, ui->piece, ui->move_mm));
+	if (ui->refused.shows)
+		area = rect_join(area, refused_area(easel));
 	if (ui->shaping.shows)
 		area = rect_join(area, shaping_area(easel));
 	if (pen_hovers(ui) && ui->hover_grip == GRIP_EDGE)
@@ -158,6 +160,8 @@ void draw_live(const struct easel *easel)
 		draw_piece(easel, ui->piece, ui->move_mm, true);
 		draw_name(easel, ui->piece, ui->move_mm);
 	}
+	if (ui->refused.shows)
+		draw_refused(easel);
 	if (ui->shaping.shows)
 		draw_lifted(easel);
 	if (ui->gesture == GESTURE_SEW)

@@ -77,7 +77,7 @@ static void path_outline(const struct easel *easel, const struct piece *piece, s
 struct rect piece_area(const struct easel *easel, int piece, struct v2 shift_mm)
 {
 	struct v2 low, high;
-	int margin = (int)(64.0 * easel->unit), words = (int)(150.0 * easel->unit);
+	int margin = (int)(104.0 * easel->unit), words = (int)(150.0 * easel->unit);
 	piece_bounds(piece_of(easel, piece), &low, &high);
 	low = view_sheet_px(&easel->ui->view, v2_add(low, shift_mm));
 	high = view_sheet_px(&easel->ui->view, v2_add(high, shift_mm));

@@ -64,6 +64,11 @@ void draw_grips(const struct easel *easel);
 void draw_shaping(const struct easel *easel);
 void draw_axis(const struct easel *easel, int piece);
 
+/* ---- draw_refused.c ---- */
+
+void draw_refused(const struct easel *easel);
+struct rect refused_area(const struct easel *easel);
+
 /* ---- draw_paper.c ---- */
 
 void draw_paper(cairo_t *cr, struct type *type, double unit, const struct view *view);

@@ -223,6 +223,7 @@ static uint64_t live_hash(const struct ui *ui)
 	struct v2 pen = hover ? ui->pen_px : ui->steady_px;
 	hash_init(&hash);
 	hash_int(&hash, (int)ui->gesture);
+	hash_int(&hash, ui->refused.shows ? ui->refused.frame : 0);
 	hash_int(&hash, hover | ui->pin_mode << 1 | ui->erase << 2);
 	hash_int(&hash, hover ? ui->hover_piece * 1024 + ui->hover_edge : 0);
 	hash_float(&hash, hover || drawn ? pen.x : 0.0f);

@@ -113,6 +113,7 @@ static void contact_begin(struct tool *tool, const struct pen_sample *sample)
 	ui->stroke_count = 0;
 	ui->moved = false;
 	ui->hold_frames = 0;
+	ui->refused.shows = false;
 	ui->eraser = sample->eraser || (ui->erase && ui->step == STEP_MARK);
 	ui->pressed = layout_hit(&ui->layout, sample->position_px);
 	if (ui->pressed != TARGET_NONE)

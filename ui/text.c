@@ -111,6 +111,7 @@ static const struct {
 	enum text text;
 } refusal[] = {
 	{"cross", TEXT_CROSSES},
+	{"clockwise", TEXT_CROSSES}, /* an eight whose larger half runs that way */
 	{"square centimetre", TEXT_SMALL},
 	{"small", TEXT_SMALL},
 	{"short", TEXT_SMALL},

@@ -6,6 +6,7 @@
  *   tool_<step>.c    begin, move, end, tap of that step; the step's buttons
  *   tool_shape.c     grips of the selected piece, ready shapes: what the pen is about to make of it
  *   tool_points.c    corners and edges of the selected piece
+ *   tool_refused.c   why a stroke was not taken, and where
  *   tool_snap.c      where a point would rather lie
  */
 #ifndef TOOL_H
@@ -127,6 +128,11 @@ static inline const struct document *shown_document(const struct ui *ui,
 {
 	return ui->shaping.shows ? &ui->shaping.draft : &session->document;
 }
+
+/* ---- tool_refused.c ---- */
+
+/* Says why the stroke in progress was not taken, in words and where it lies. */
+void stroke_refused(struct tool *tool, const char *reason);
 
 /* ---- tool_points.c ---- */
 

@@ -3,6 +3,7 @@
 #include "tool.h"
 
 static const float outline_reach_mm = 4.0f; /* of the screen */
+static const float end_reach_mm = 8.0f;     /* a line that began there may end so near */
 static const float closed_mm = 12.0f;       /* both ends nearer than this: a loop of its own */
 static const float copy_gap_mm = 40.0f;     /* of the sheet */
 
@@ -14,11 +15,12 @@ static float outline_distance(const struct ui *ui, const struct piece *piece, st
 	return piece_nearest_edge(piece, local, &edge, &fraction);
 }
 
-static bool near_outline(const struct ui *ui, const struct session *session, struct v2 position_px)
+static bool near_outline(const struct ui *ui, const struct session *session, struct v2 position_px,
+			 float reach_mm)
 {
 	return piece_used(session, ui->piece) &&
 	       outline_distance(ui, &session->document.pattern.piece[ui->piece], position_px) <=
-		       tool_sheet_mm(ui, outline_reach_mm);
+		       tool_sheet_mm(ui, reach_mm);
 }
 
 enum gesture tool_draw_begin(struct tool *tool)
@@ -33,7 +35,7 @@ enum gesture tool_draw_begin(struct tool *tool)
 	enum grip grip = pick_grip(ui, tool->session, ui->start_px, &which);
 	if (grip != GRIP_NONE)
 		return shape_begin(tool, grip, which);
-	if (near_outline(ui, tool->session, ui->start_px))
+	if (near_outline(ui, tool->session, ui->start_px, outline_reach_mm))
 		return GESTURE_OVERSKETCH;
 	int piece = pattern_pick(pattern, view_sheet_mm(&ui->view, ui->start_px), 0);
 	if (piece < 0)
@@ -79,7 +81,7 @@ static void new_piece(struct tool *tool)
 	memset(&piece, 0, sizeof piece);
 	const char *fault = piece_from_stroke(&piece, stroke_on_sheet(ui), ui->stroke_count);
 	if (fault) {
-		tool_notice(tool, text_refusal(fault));
+		stroke_refused(tool, fault);
 		return;
 	}
 	struct edit *edit = edit_push(tool->edits, EDIT_PIECE);
@@ -100,7 +102,7 @@ static void oversketch(struct tool *tool)
 	piece = tool->session->document.pattern.piece[ui->piece];
 	const char *fault = piece_oversketch(&piece, stroke_on_sheet(ui), ui->stroke_count);
 	if (fault) {
-		tool_notice(tool, text_refusal(fault));
+		stroke_refused(tool, fault);
 		return;
 	}
 	struct edit *edit = edit_push(tool->edits, EDIT_OUTLINE);
@@ -139,7 +141,7 @@ void tool_draw_end(struct tool *tool)
 		const struct piece *piece = &tool->session->document.pattern.piece[ui->piece];
 		push_place(tool, piece, v2_add(piece->position_mm, ui->move_mm), piece->inside_up);
 	} else if (ui->gesture == GESTURE_OVERSKETCH && !is_loop(ui) &&
-		   near_outline(ui, tool->session, ui->steady_px)) {
+		   near_outline(ui, tool->session, ui->steady_px, end_reach_mm)) {
 		oversketch(tool);
 	} else if (ui->gesture == GESTURE_PIECE || ui->gesture == GESTURE_OVERSKETCH) {
 		new_piece(tool);

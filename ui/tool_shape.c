@@ -42,11 +42,26 @@ static struct v2 box_point(const struct piece *piece, struct v2 way, float out_m
 			   middle.y + way.y * (half.y + out_mm)};
 }
 
+/* Between the tools and the swatches, below the hint: what lies beyond comes in as far as that. */
+static struct v2 within_reach(const struct ui *ui, struct v2 px)
+{
+	const struct layout *layout = &ui->layout;
+	const struct rect *tool = &layout->target[TARGET_TOOL_PENCIL];
+	const struct rect *swatch = &layout->target[TARGET_SWATCH_0];
+	const struct rect *left = layout->left_handed ? swatch : tool;
+	const struct rect *right = layout->left_handed ? tool : swatch;
+	float rim = tool_px(ui, grip_reach_mm);
+	float low = (float)(left->x + left->w) + rim, high = (float)right->x - rim;
+	float top = (float)(layout->hint.y + layout->hint.h) + rim;
+	float bottom = (float)(layout->right.y + layout->right.h) - rim;
+	return (struct v2){float_clamp(px.x, low, high), float_clamp(px.y, top, bottom)};
+}
+
 struct v2 grip_px(const struct ui *ui, const struct piece *piece, enum grip grip, int which)
 {
 	float out_mm = tool_sheet_mm(ui, grip == GRIP_TURN ? box_gap_mm + turn_gap_mm : box_gap_mm);
 	struct v2 local = box_point(piece, grip_way(grip, which), out_mm);
-	return view_sheet_px(&ui->view, piece_to_sheet(piece, local));
+	return within_reach(ui, view_sheet_px(&ui->view, piece_to_sheet(piece, local)));
 }
 
 bool grip_fits(const struct ui *ui, const struct piece *piece, int side)

@@ -1,7 +1,7 @@
 #include "ui.h"
 #include "tool.h"
 
-enum { NOTICE_FRAMES = 4 * FRAME_RATE_HZ };
+enum { NOTICE_FRAMES = 4 * FRAME_RATE_HZ, REFUSED_FRAMES = 6 * FRAME_RATE_HZ };
 
 static const float zoom_step = 1.6f;
 
@@ -301,6 +301,8 @@ static void follow_notice(struct ui *ui, const struct session *session)
 		ui->notice = TEXT_NONE;
 	}
 	ui->sent = false;
+	if (ui->frame - ui->refused.frame > REFUSED_FRAMES)
+		ui->refused.shows = false;
 }
 
 /* A twin pulses once when it becomes useful. */

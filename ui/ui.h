@@ -182,6 +182,23 @@ struct shaping {
 	struct document draft;
 };
 
+enum { REFUSED_POINTS_MAX = 96 };
+
+/* A stroke that was not taken stays for a while, with the place that is at fault. */
+struct refused {
+	bool shows;
+	int frame;
+	enum fault {
+		FAULT_OTHER,
+		FAULT_CROSSES, /* at[0]: where */
+		FAULT_OPEN,    /* at[0], at[1]: the ends */
+		FAULT_SMALL,   /* at[0]: its middle */
+	} fault;
+	struct v2 at_mm[2]; /* on the sheet */
+	int count;
+	struct v2 line_mm[REFUSED_POINTS_MAX];
+};
+
 struct ui {
 	struct layout layout;
 	struct view view;
@@ -216,6 +233,7 @@ struct ui {
 	/* What the gesture in progress is about. */
 	struct v2 move_mm; /* GESTURE_MOVE: shift of the piece so far */
 	struct shaping shaping;
+	struct refused refused;
 	struct {
 		int piece, edge; /* -1: none */
 	} sew_from, sew_to;
