@@ -3,13 +3,8 @@
 
 #include "character.h"
 #include "garment_file.h"
-#include "jitter.h"
-#include "kiosk.h"
 #include "options.h"
-#include "picture.h"
-#include "report.h"
-#include "snapshot.h"
-#include "tape_learn.h"
+#include "replay.h"
 #include "threads.h"
 
 #include <stdio.h>
@@ -17,8 +12,6 @@
 #include <unistd.h>
 
 enum {
-	SCREEN_WIDTH = 1280, /* where the tape does not say */
-	SCREEN_HEIGHT = 720,
 	PICTURES_WANTED = 24, /* where --pictures-every does not say */
 	CELL_WIDTH = 480,
 	PROGRESS_FRAMES = 30,
@@ -29,30 +22,6 @@ static const char usage[] =
 	"                      [--body FILE|mannequin] [--jitter-mm N] [--seed N] [--threads N]\n"
 	"       kitsuke replay TAPE... --samples [--descriptor FILE]\n";
 
-struct replay {
-	const char *tape_path, *out, *body;
-	bool no_pictures, samples, progress;
-	long pictures_every, jitter_mm, seed;
-	uint8_t *descriptor; /* of devices that the tape does not describe */
-	int descriptor_size;
-	struct crew *crew;
-	struct tape tape;
-	size_t cursor; /* into the tape's events */
-	int frame_count;
-	void *memory;
-	struct kiosk *kiosk;
-	struct frame_reports *reports;
-	struct jitter jitter;
-	struct frame_clock clock;
-	FILE *journal; /* in memory until the end */
-	char *journal_text;
-	size_t journal_size;
-	struct snapshot snapshot;
-	struct contact_sheet contact;
-	const char *last_word; /* of the last edit, for captions */
-	char fault[FAULT_BYTES];
-};
-
 static int complain(const struct replay *replay, int status)
 {
 	fprintf(stderr, "kitsuke replay: %s\n", replay->fault);
@@ -60,67 +29,6 @@ static int complain(const struct replay *replay, int status)
 }
 
 /* ---- start ---- */
-
-static bool load_tape(struct replay *replay)
-{
-	size_t size;
-	char wrong[200];
-	char *text = store_read(replay->tape_path, &size, replay->fault);
-	if (!text)
-		return false;
-	bool read = tape_read(&replay->tape, text, size, wrong);
-	free(text);
-	if (!read) {
-		snprintf(replay->fault, FAULT_BYTES, "%.250s: %s", replay->tape_path, wrong);
-		return false;
-	}
-	replay->cursor = 0;
-	replay->frame_count = replay->tape.frame_count;
-	if (replay->tape.width_px == 0) {
-		replay->tape.width_px = SCREEN_WIDTH;
-		replay->tape.height_px = SCREEN_HEIGHT;
-	}
-	return true;
-}
-
-/* A dump of other programs may have neither descriptor nor ids: --descriptor gives the one, and
- * what its reports look like the other. */
-static void complete_device(struct replay *replay, int d)
-{
-	struct tape_device *device = &replay->tape.device[d];
-	if (device->descriptor_size)
-		return;
-	if (replay->descriptor) {
-		memcpy(device->descriptor, replay->descriptor, (size_t)replay->descriptor_size);
-		device->descriptor_size = replay->descriptor_size;
-		device->used = true;
-		return;
-	}
-	device->speaks = tape_guess(&replay->tape, d);
-	device->used = device->speaks.family != PEN_BY_DESCRIPTOR;
-	if (device->used)
-		fprintf(stderr,
-			"kitsuke replay: note: %s: device %d has no descriptor; its reports look "
-			"like %s with %d x %d units, %d levels\n",
-			replay->tape_path, d, pen_family_rule(device->speaks.family)->name,
-			device->speaks.x_maximum, device->speaks.y_maximum,
-			device->speaks.pressure_maximum + 1);
-}
-
-static void learn_devices(struct replay *replay, struct pen *pen)
-{
-	pen_mount(pen, &replay->tape.mount);
-	for (int d = 0; d < TAPE_DEVICES_MAX; d++) {
-		const struct tape_device *device = &replay->tape.device[d];
-		complete_device(replay, d);
-		if (!device->used)
-			continue;
-		tape_learn(pen, d, device);
-		if (pen->device[d].kind == DEVICE_UNKNOWN)
-			fprintf(stderr, "kitsuke replay: note: %s: device %d is not used: %s\n",
-				replay->tape_path, d, pen->device[d].reason);
-	}
-}
 
 static bool start_kiosk(struct replay *replay)
 {
@@ -136,7 +44,7 @@ static bool start_kiosk(struct replay *replay)
 	if (replay->tape.budget_units > 0)
 		kiosk->session.budget_units = replay->tape.budget_units;
 	kiosk_body_named(kiosk, store_name(name));
-	learn_devices(replay, &kiosk->pen);
+	replay_learn(replay, &kiosk->pen);
 	jitter_init(&replay->jitter, (float)replay->jitter_mm, (uint32_t)replay->seed);
 	return true;
 }
@@ -160,15 +68,6 @@ static bool open_pictures(struct replay *replay)
 }
 
 /* ---- the run ---- */
-
-/* The frame's raw input, as the tape has it or as a trembling hand would have made it. */
-static unsigned next_reports(struct replay *replay, int frame)
-{
-	unsigned unplugged = tape_frame(&replay->tape, frame, &replay->cursor, replay->reports);
-	if (replay->jitter_mm > 0)
-		jitter_frame(&replay->jitter, &replay->kiosk->pen, replay->reports);
-	return unplugged;
-}
 
 static void show_progress(const struct replay *replay, int frame)
 {
@@ -196,7 +95,7 @@ static bool take_picture(struct replay *replay, int frame)
 static bool run_frame(struct replay *replay, int frame)
 {
 	struct kiosk *kiosk = replay->kiosk;
-	unsigned unplugged = next_reports(replay, frame);
+	unsigned unplugged = replay_reports(replay, frame);
 	frame_clock_begin(&replay->clock, &kiosk->session);
 	kiosk_frame(kiosk, replay->reports, unplugged);
 	frame_clock_end(&replay->clock, &kiosk->session);
@@ -255,40 +154,6 @@ static bool write_results(struct replay *replay)
 	       contact_finish(&replay->contact, path[CONTACT], replay->fault);
 }
 
-/* ---- samples ---- */
-
-static void print_sample(int frame, const struct pen_sample *sample, uint8_t buttons)
-{
-	static const char *const state[] = {"away", "hover", "touch"};
-	printf("{\"frame\": %d, \"time_us\": %lld, \"state\": \"%s\", \"x_px\": %.3f, "
-	       "\"y_px\": %.3f, \"pressure\": %.4f, \"tilt_x_rad\": %.4f, \"tilt_y_rad\": %.4f, "
-	       "\"eraser\": %s, \"barrel\": %s, \"buttons\": %d}\n",
-	       frame, (long long)sample->time_us, state[sample->state],
-	       (double)sample->position_px.x, (double)sample->position_px.y,
-	       (double)sample->pressure, (double)sample->tilt_rad.x, (double)sample->tilt_rad.y,
-	       sample->eraser ? "true" : "false", sample->barrel ? "true" : "false", buttons);
-}
-
-/* The pen alone: what the rest of the program would be told. */
-static void print_samples(struct replay *replay)
-{
-	struct pen *pen = &replay->kiosk->pen;
-	pen_init(pen, replay->tape.width_px, replay->tape.height_px);
-	learn_devices(replay, pen);
-	jitter_init(&replay->jitter, (float)replay->jitter_mm, (uint32_t)replay->seed);
-	for (int frame = 0; frame < replay->frame_count; frame++) {
-		struct frame_input input = {0};
-		int64_t now_us = (int64_t)(frame + 1) * 1000000 / FRAME_RATE_HZ;
-		unsigned unplugged = next_reports(replay, frame);
-		pen_read(pen, replay->reports, now_us, &input);
-		for (int device = 0; device < PEN_DEVICES_MAX; device++)
-			if (unplugged >> device & 1)
-				pen_unplugged(pen, device, &input);
-		for (int s = 0; s < input.sample_count; s++)
-			print_sample(frame, &input.sample[s], input.buttons_held);
-	}
-}
-
 /* ---- a tape from end to end ---- */
 
 static bool take_memory(struct replay *replay)
@@ -320,12 +185,12 @@ static void give_memory(struct replay *replay)
 
 static int replay_tape(struct replay *replay)
 {
-	if (!load_tape(replay))
+	if (!replay_load(replay))
 		return complain(replay, STATUS_INPUT);
 	if (!take_memory(replay))
 		return complain(replay, STATUS_MACHINE);
 	if (replay->samples) {
-		print_samples(replay);
+		replay_samples(replay);
 		return STATUS_DONE;
 	}
 	if (!start_kiosk(replay))
