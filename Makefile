@@ -94,7 +94,7 @@ SHORT = $(if $(V),,@echo '  $(1)' '$(patsubst $(B)/%,%,$(or $(2),$@))';)
 all: $(B)/kitsuke
 
 $(B)/kitsuke: $(call objects,$(MAIN)) $(B)/kitsuke.a
-$(B)/tests/test_display_kms: $(B)/tests/fake_card.o
+$(B)/tests/test_display_kms $(B)/tests/test_display_screens: $(B)/tests/fake_card.o
 $(B)/tests/test_editor: $(B)/tests/hand_motion.o $(B)/tests/hand_visit.o
 $(TESTS) $(BENCH) $(FUZZ): %: %.o $(B)/kitsuke.a
 .SECONDEXPANSION:
