@@ -22,11 +22,15 @@ held() {
   cut_tape 0 0.8
   echo '# unplug 0 at 000000.900000'
 } >"$folder/once"
-for cycle in $(seq 0 19); do
-  [ "$cycle" = 0 ] && cut_tape 0 0.8 || { cut_tape 0.5 0.8 | grep '^E:' | later "$cycle"; }
-  [ "$cycle" != 0 ] || echo 'D: 0'
-  printf '# unplug 0 at %013.6f\n' "$cycle.9"
-done >"$folder/cycles"
+cut_tape 0.5 0.8 >"$folder/stroke"
+{
+  grep -v '^E:' "$folder/stroke"
+  echo 'D: 0'
+  for cycle in 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19; do
+    grep '^E:' "$folder/stroke" | later "$(awk "BEGIN { print 0.32 * $cycle }")"
+    awk "BEGIN { printf \"# unplug 0 at %013.6f\\n\", 0.81 + 0.32 * $cycle }"
+  done
+} >"$folder/cycles"
 record
 "$tools/play" "$folder/once" >/dev/null || fail "the pen could not be played once"
 before=$(held)
