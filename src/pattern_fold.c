@@ -138,6 +138,38 @@ static void corner_on_axis(const struct piece *piece, struct half *half, int at,
 	half->corner[at] = float_abs(v2_dot(way, axis_way(piece))) > SMOOTH_COSINE;
 }
 
+/* From the axis on: how far the run without a corner reaches away from it. */
+static float run_reach(const struct piece *piece, const struct half *half, int at, int step)
+{
+	float reach = 0.0f;
+	for (int i = at + step; i > 0 && i < half->count - 1 && !half->corner[i]; i += step)
+		reach = float_max(reach, float_abs(left_of(piece, half->mm[i])));
+	return reach;
+}
+
+/* Without a corner on the axis both halves go on into each other: a straight edge is laid square to
+ * the axis, a curve loses its slope there, less and less farther away. */
+static void meet_squarely(const struct piece *piece, struct half *half, int at, int step)
+{
+	struct v2 way = axis_way(piece), d = v2_sub(half->mm[at + step], half->mm[at]);
+	float reach = 0.6f * run_reach(piece, half, at, step);
+	float off = float_abs(left_of(piece, half->mm[at + step]));
+	if (half->corner[at])
+		return;
+	if (reach <= off) {
+		half->mm[at] = piece_onto_axis(piece, half->mm[at + step]);
+		return;
+	}
+	float slope = v2_dot(d, way) / off;
+	for (int i = at + step; i > 0 && i < half->count - 1 && !half->corner[i]; i += step) {
+		float x = float_abs(left_of(piece, half->mm[i])) / reach;
+		if (x >= 1.0f)
+			break;
+		float shift = slope * reach * x * (1.0f - x) * (1.0f - x);
+		half->mm[i] = v2_sub(half->mm[i], v2_scale(way, shift));
+	}
+}
+
 static void begin_with_corner(struct piece *piece)
 {
 	struct piece turned = *piece;
@@ -166,6 +198,8 @@ const char *piece_fold(struct piece *piece, int side)
 				: "the outline has too many points: make it simpler";
 	corner_on_axis(piece, &half, 0, 1);
 	corner_on_axis(piece, &half, last, last - 1);
+	meet_squarely(piece, &half, 0, 1);
+	meet_squarely(piece, &half, last, -1);
 	piece->point_count = 0;
 	for (int i = 0; i < 2 * last; i++) {
 		int at = i <= last ? i : 2 * last - i;

@@ -123,6 +123,7 @@ static void test_splits(void)
 static void test_fold(void)
 {
 	begin();
+	CHECK(say("bend 0 2 40 240"));
 	CHECK(say("point 0 2 260 340"));
 	CHECK(say("fold 0 1 0 0 1.5707963"));
 	const struct piece *piece = piece_at(0);
@@ -154,6 +155,14 @@ static void test_fold(void)
 		edge++;
 	snprintf(line, sizeof line, "split 0 %d 0.3", edge);
 	CHECK(say(line) && piece_edge_count(piece) == edges + 2);
+	/* Where the outline crosses the axis without a corner it crosses it squarely. */
+	for (int i = 0; i < piece->point_count; i++) {
+		struct v2 a = piece->point_mm[i];
+		struct v2 b = piece->point_mm[(i + 1) % piece->point_count];
+		if (a.x * b.x <= 0.0f && !piece->corner[i] &&
+		    !piece->corner[(i + 1) % piece->point_count])
+			CHECK(float_abs(a.y - b.y) < 0.06f * float_abs(a.x - b.x));
+	}
 	CHECK(say("fold 0 0 0 0 0") && !piece->symmetric);
 	CHECK(!say("fold 0 1 900 0 1.5707963"));
 }
