@@ -261,6 +261,15 @@ static void corners_at_extremes(struct piece *piece)
 		piece->corner[extreme[k]] = true;
 }
 
+/* From the first point to the one farthest from it. */
+static float outline_reach(const struct piece *piece)
+{
+	float reach = 0.0f;
+	for (int i = 1; i < piece->point_count; i++)
+		reach = float_max(reach, v2_distance(piece->point_mm[i], piece->point_mm[0]));
+	return reach;
+}
+
 /* Turns the list so that it begins at a corner, and measures from the centroid. */
 static void settle_outline(struct piece *piece)
 {
@@ -277,7 +286,8 @@ static void settle_outline(struct piece *piece)
 		area += v2_cross(a, b);
 	}
 	struct v2 centroid = origin;
-	if (area > 100.0f) /* twice it; else there is no middle, and no piece */
+	/* That of a line that crosses itself may lie anywhere. */
+	if (area > 100.0f && v2_length(sum) < area * outline_reach(piece))
 		centroid = v2_add(origin, v2_scale(sum, 1.0f / area));
 	for (int i = 0; i < count; i++) {
 		int at = (start + i) % count;

@@ -169,12 +169,29 @@ static void check_even(struct hand *hand)
 	hand_tap_target(hand, TARGET_COPY);
 	hand_wait(hand, 0.2f);
 	hand_tap_target(hand, TARGET_STEP_SEW);
+	hand_wait(hand, 0.1f);
 	pull(hand, edge_px(hand, 0, 0, 0.5f), edge_px(hand, 1, 0, 0.5f));
-	hand_tap_target(hand, TARGET_EVEN);
+	hand_tap_target(hand, TARGET_STEP_DRAW);
+	hand_wait(hand, 0.1f);
+	hand_tap_target(hand, TARGET_TOOL_POINTS);
+	hand_tap(hand, edge_px(hand, 1, 1, 0.5f)); /* a point that makes one edge longer */
 	hand_wait(hand, 0.2f);
+	hand_tap_target(hand, TARGET_UNDO);
+	pull_by(hand, corner_px(hand, 1, 1), 3.0f, 22.0f);
+	hand_tap_target(hand, TARGET_STEP_SEW);
+	hand_wait(hand, 0.1f);
+	hand_wait(hand, 0.4f);
+	int mark[2];
+	CHECK(text_hint(ui_of(hand), &hand->kiosk->session, mark) == TEXT_HINT_SEW_EASED);
+	hand_tap_target(hand, TARGET_EVEN);
+	hand_wait(hand, 0.5f);
+	CHECK(text_hint(ui_of(hand), &hand->kiosk->session, mark) == TEXT_HINT_SEW_EVEN);
+	CHECK_NEAR(piece_edge_length_mm(piece_of(hand, 0), 0),
+		   piece_edge_length_mm(piece_of(hand, 1), 0), 0.1);
 	const struct seam *seam = &hand->kiosk->session.document.pattern.seam[0];
 	CHECK(seam->used && seam->even);
 	hand_tap_target(hand, TARGET_STEP_DRAW);
+	hand_wait(hand, 0.1f);
 	hand_tap_target(hand, TARGET_TOOL_POINTS);
 	float before = piece_edge_length_mm(piece_of(hand, 1), 0);
 	pull_by(hand, corner_px(hand, 1, 0), -16.0f, 10.0f);

@@ -136,14 +136,17 @@ static void draw_guides(const struct easel *easel)
 	}
 }
 
-/* Words on a small label, centred. */
-static void draw_label(const struct easel *easel, struct v2 at, const char *text)
+void draw_label(const struct easel *easel, struct v2 at, const char *text, uint32_t colour)
 {
 	cairo_t *cr = easel->cr;
+	struct rect pane = easel->ui->layout.right;
 	double u = easel->unit, width = (double)strlen(text) * 11.5 * u + 20.0 * u;
+	float aside = (float)(0.5 * width + 6.0 * u), below = (float)(23.0 * u);
+	at.x = float_clamp(at.x, (float)pane.x + aside, (float)(pane.x + pane.w) - aside);
+	at.y = float_clamp(at.y, (float)pane.y + below, (float)(pane.y + pane.h) - below);
 	round_box(cr, (double)at.x - 0.5 * width, (double)at.y - 17.0 * u, width, 34.0 * u,
 		  9.0 * u);
-	ink(cr, LOOK_NIGHT, 0.92);
+	ink(cr, colour, 0.92);
 	cairo_fill(cr);
 	struct style style = {21.0 * u, false, 0xf6f2ea, ALIGN_CENTRE, width - 10.0 * u};
 	draw_text(cr, easel->type, text, (double)at.x, (double)at.y + 7.5 * u, &style);
@@ -166,7 +169,7 @@ static void label_edges(const struct easel *easel)
 		snprintf(text, sizeof text, "%d mm", whole(piece_edge_length_mm(piece, edge)));
 		draw_label(easel,
 			   local_px(easel, piece, piece_edge_point(piece, edge, 0.5f), no_shift),
-			   text);
+			   text, LOOK_NIGHT);
 	}
 }
 
@@ -191,5 +194,5 @@ void draw_shaping(const struct easel *easel)
 	else
 		snprintf(text, sizeof text, "%d x %d mm", whole(shaping->size_mm.x),
 			 whole(shaping->size_mm.y));
-	draw_label(easel, at, text);
+	draw_label(easel, at, text, LOOK_NIGHT);
 }

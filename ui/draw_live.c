@@ -42,6 +42,7 @@ static void draw_sewing(const struct easel *easel)
 	if (piece_used(easel->session, to.piece)) {
 		draw_edge_glow(easel, to, LOOK_HINT_RIM);
 		draw_zip(easel, from, to, false, 1.0);
+		draw_lengths(easel, from, to, false);
 		return;
 	}
 	move_to(cr, ui->start_px);

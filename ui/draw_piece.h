@@ -48,6 +48,8 @@ void draw_edge_glow(const struct easel *easel, struct edge_ref edge, uint32_t co
 /* Threads from edge to edge: which points will meet. */
 void draw_zip(const struct easel *easel, struct edge_ref a, struct edge_ref b, bool swapped,
 	      double alpha);
+/* How long both edges are, and by how much the longer one is eased in. */
+void draw_lengths(const struct easel *easel, struct edge_ref a, struct edge_ref b, bool even);
 void draw_threads(const struct easel *easel); /* from letter to letter */
 /* Seams that touch a lifted piece, or the others. */
 void draw_seams(const struct easel *easel, bool lifted);
@@ -63,6 +65,8 @@ void draw_grips(const struct easel *easel);
 /* What goes with a shape that the pen is making: guides, measures, a refusal. */
 void draw_shaping(const struct easel *easel);
 void draw_axis(const struct easel *easel, int piece);
+/* Words on a small label about a place, kept within the pane. */
+void draw_label(const struct easel *easel, struct v2 at_px, const char *text, uint32_t colour);
 
 /* ---- draw_refused.c ---- */
 

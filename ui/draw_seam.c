@@ -3,6 +3,8 @@
 
 #include <stdio.h>
 
+enum { EASED_PERCENT_MAX = 15 }; /* what is more lies in visible gathers */
+
 static const struct v2 no_shift = {0.0f, 0.0f};
 
 /* Outward on the screen from an edge that runs from a to b. */
@@ -73,6 +75,39 @@ void draw_zip(const struct easel *easel, struct edge_ref a, struct edge_ref b, b
 		disc(cr, (double)at.x, (double)at.y, 7.0 * easel->unit);
 		ink(cr, LOOK_WRAP, alpha);
 		cairo_fill(cr);
+	}
+}
+
+/* On the cloth beside the edge, where no letter lies. */
+static void label_length(const struct easel *easel, struct edge_ref edge, const char *text,
+			 uint32_t colour)
+{
+	struct v2 middle = edge_px(easel, edge, 0.5f);
+	struct v2 out = outward(piece_of(easel, edge.piece), edge_px(easel, edge, 0.47f),
+				edge_px(easel, edge, 0.53f));
+	float width = 11.5f * (float)strlen(text) + 20.0f;
+	float inside = (float)easel->unit * (34.0f + 0.5f * width * float_abs(out.x));
+	draw_label(easel, v2_sub(middle, v2_scale(out, inside)), text, colour);
+}
+
+void draw_lengths(const struct easel *easel, struct edge_ref a, struct edge_ref b, bool even)
+{
+	const struct edge_ref edge[2] = {a, b};
+	float length[2] = {piece_edge_length_mm(piece_of(easel, a.piece), a.edge),
+			   piece_edge_length_mm(piece_of(easel, b.piece), b.edge)};
+	for (int side = 0; side < 2; side++) {
+		float more = 100.0f * (length[side] / float_max(length[1 - side], 1.0f) - 1.0f);
+		int percent = (int)(more + 0.5f);
+		char text[40];
+		if (even)
+			snprintf(text, sizeof text, "= %d mm", (int)(length[side] + 0.5f));
+		else if (percent > 0)
+			snprintf(text, sizeof text, "%d mm +%d%%", (int)(length[side] + 0.5f),
+				 percent);
+		else
+			snprintf(text, sizeof text, "%d mm", (int)(length[side] + 0.5f));
+		label_length(easel, edge[side], text,
+			     percent > EASED_PERCENT_MAX ? LOOK_WRAP : LOOK_NIGHT);
 	}
 }
 
@@ -206,4 +241,7 @@ void draw_seams(const struct easel *easel, bool lifted)
 		for (int side = 0; pattern->seam[s].used && side < 2; side++)
 			if (touches(&pattern->seam[s], pieces) == lifted)
 				draw_letter(easel, s, side, sewing && s == easel->ui->seam);
+	int s = easel->ui->seam;
+	if (sewing && s >= 0 && pattern->seam[s].used && !lifted)
+		draw_lengths(easel, pattern->seam[s].a, pattern->seam[s].b, pattern->seam[s].even);
 }

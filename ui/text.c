@@ -1,5 +1,7 @@
 #include "text.h"
 
+#define EASED_SHARE 0.03f /* of a seam's length: less is not worth a word */
+
 const struct phrase text_target[TARGET_COUNT] = {
 	[TARGET_STEP_DRAW] = {"描く", "Draw"},
 	[TARGET_STEP_SEW] = {"縫う", "Sew"},
@@ -29,7 +31,7 @@ const struct phrase text_target[TARGET_COUNT] = {
 	[TARGET_TOOL_BOX] = {"四角", "Box"},
 	[TARGET_TOOL_ROUND] = {"丸", "Round"},
 	[TARGET_FOLD] = {"左右同じ", "Symmetric"},
-	[TARGET_EVEN] = {"同じ長さ", "Same length"},
+	[TARGET_EVEN] = {"同じ長さ", "Equal"},
 };
 
 const struct phrase text_phrase[TEXT_COUNT] = {
@@ -49,6 +51,10 @@ const struct phrase text_phrase[TEXT_COUNT] = {
 			   "Draw a line from one edge to the edge it joins"},
 	[TEXT_HINT_SEW_SELECTED] = {"同じ文字どうしが縫われます",
 				    "Edges with the same letter are sewn"},
+	[TEXT_HINT_SEW_EASED] = {"長いほうは、縫い縮めます",
+				 "The longer edge is gathered to fit the other"},
+	[TEXT_HINT_SEW_EVEN] = {"片方を直すと、もう片方も同じ長さになります",
+				"Change one edge, and the other keeps its length"},
 	[TEXT_HINT_MARK_CLOTH] = {"まず布の上に、線を引こう", "First draw a line on the cloth"},
 	[TEXT_HINT_MARK_BODY] = {"体の同じところに、線を引こう",
 				 "Now draw its partner on the body"},
@@ -171,6 +177,19 @@ static enum text hint_mark(const struct ui *ui, const struct session *session)
 	return cloth > 0 && cloth == body ? TEXT_HINT_MARK_PAIR : TEXT_HINT_MARK_CLOTH;
 }
 
+static enum text hint_sew(const struct ui *ui, const struct pattern *pattern)
+{
+	if (ui->seam < 0 || !pattern->seam[ui->seam].used)
+		return TEXT_HINT_SEW;
+	const struct seam *seam = &pattern->seam[ui->seam];
+	float a = piece_edge_length_mm(&pattern->piece[seam->a.piece], seam->a.edge);
+	float b = piece_edge_length_mm(&pattern->piece[seam->b.piece], seam->b.edge);
+	if (seam->even)
+		return TEXT_HINT_SEW_EVEN;
+	return float_abs(a - b) > EASED_SHARE * float_max(a, b) ? TEXT_HINT_SEW_EASED
+								: TEXT_HINT_SEW_SELECTED;
+}
+
 static enum text hint_draw(const struct ui *ui)
 {
 	if (ui->drawing == DRAW_BOX || ui->drawing == DRAW_ROUND)
@@ -219,7 +238,7 @@ enum text text_hint(const struct ui *ui, const struct session *session, int mark
 	case STEP_DRAW:
 		return hint_draw(ui);
 	case STEP_SEW:
-		return ui->seam >= 0 ? TEXT_HINT_SEW_SELECTED : TEXT_HINT_SEW;
+		return hint_sew(ui, &session->document.pattern);
 	case STEP_MARK:
 		return hint_mark(ui, session);
 	case STEP_DRESS:
