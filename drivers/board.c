@@ -36,8 +36,11 @@ const char board_text[] =
 	"thread_cpus = any\n"
 	"# The station starts anew after so many seconds without a touch; 0: never.\n"
 	"idle_s = 180\n"
-	"# en or ja.\n"
-	"language = en\n"
+	"# both: Japanese over English; ja; en. The visitor can change it on the screen.\n"
+	"language = both\n"
+	"# Digits, 4 to 8, that the service page asks for (all buttons held for five seconds); "
+	"none.\n"
+	"service_pin = none\n"
 	"\n"
 	"# Take only the tablet with these USB ids, like 256c:006d; any: the first pen found.\n"
 	"tablet = any\n"
@@ -191,11 +194,26 @@ static bool value_cpus(struct reader *r)
 	return true;
 }
 
+static const char *language_words[] = {"both", "ja", "en"};
+
 static bool value_language(struct reader *r)
 {
-	bool japanese = !strcmp(r->value, "ja");
-	r->board->language = japanese ? BOARD_JAPANESE : BOARD_ENGLISH;
-	return japanese || !strcmp(r->value, "en") || fault(r, "give en or ja");
+	for (int i = 0; i < COUNT_OF(language_words); i++)
+		if (!strcmp(r->value, language_words[i])) {
+			r->board->language = (enum board_language)i;
+			return true;
+		}
+	return fault(r, "give both, ja or en");
+}
+
+static bool value_service_pin(struct reader *r)
+{
+	size_t size = strcmp(r->value, "none") ? strlen(r->value) : 0;
+	if ((size && (size < 4 || size > BOARD_PIN_MAX)) || strspn(r->value, "0123456789") < size)
+		return fault(r, "give 4 to 8 digits, or none");
+	memcpy(r->board->service_pin, r->value, size);
+	r->board->service_pin[size] = 0;
+	return true;
 }
 
 static bool value_tablet(struct reader *r)
@@ -255,6 +273,7 @@ enum key {
 	KEY_CPUS,
 	KEY_IDLE,
 	KEY_LANGUAGE,
+	KEY_SERVICE_PIN,
 	KEY_TABLET,
 	KEY_TABLET_MM,
 	KEY_TABLET_ROTATION,
@@ -264,9 +283,10 @@ enum key {
 };
 
 static const char *key_names[KEY_COUNT] = {
-	"display_mm", "rotation",        "wrap",        "pin",         "relax",    "active_low",
-	"budget",     "threads",         "thread_cpus", "idle_s",      "language", "tablet",
-	"tablet_mm",  "tablet_rotation", "pen_display", "calibration",
+	"display_mm",  "rotation",    "wrap",    "pin",         "relax",
+	"active_low",  "budget",      "threads", "thread_cpus", "idle_s",
+	"language",    "service_pin", "tablet",  "tablet_mm",   "tablet_rotation",
+	"pen_display", "calibration",
 };
 
 static bool key_read(struct reader *r, enum key key)
@@ -295,6 +315,8 @@ static bool key_read(struct reader *r, enum key key)
 		return value_int(r, 0, 86400, &board->idle_s);
 	case KEY_LANGUAGE:
 		return value_language(r);
+	case KEY_SERVICE_PIN:
+		return value_service_pin(r);
 	case KEY_TABLET:
 		return value_tablet(r);
 	case KEY_TABLET_MM:
@@ -376,10 +398,10 @@ static bool lines_differ(struct reader *r)
 	return true;
 }
 
-bool board_read(struct board *board, const char *text, size_t size, char fault_text[200])
+bool board_read_over(struct board *board, const char *text, size_t size, char fault_text[200])
 {
+	struct board before = *board;
 	struct reader r = {.board = board, .fault = fault_text};
-	*board = board_default;
 	fault_text[0] = 0;
 	bool sound = size <= BOARD_TEXT_MAX;
 	if (!sound)
@@ -394,6 +416,53 @@ bool board_read(struct board *board, const char *text, size_t size, char fault_t
 	}
 	sound = sound && lines_differ(&r);
 	if (!sound)
-		*board = board_default;
+		*board = before;
 	return sound;
+}
+
+bool board_read(struct board *board, const char *text, size_t size, char fault_text[200])
+{
+	*board = board_default;
+	return board_read_over(board, text, size, fault_text);
+}
+
+/* ---- what the operator sets ---- */
+
+static bool same_crosses(const struct pen_mount *a, const struct pen_mount *b)
+{
+	return a->cross_count == b->cross_count &&
+	       !memcmp(a->cross, b->cross, (size_t)a->cross_count * sizeof a->cross[0]);
+}
+
+static int pixels_write(char *text, int hundredths)
+{
+	return snprintf(text, 16, " %d.%02d", hundredths / 100, hundredths % 100);
+}
+
+static int crosses_write(char *text, const struct pen_mount *mount)
+{
+	int at = sprintf(text, "calibration =%s", mount->cross_count ? "" : " none");
+	for (int i = 0; i < mount->cross_count; i++) {
+		const struct pen_cross *cross = &mount->cross[i];
+		at += pixels_write(text + at, cross->seen_x);
+		at += pixels_write(text + at, cross->seen_y);
+		at += pixels_write(text + at, cross->meant_x);
+		at += pixels_write(text + at, cross->meant_y);
+	}
+	return at + sprintf(text + at, "\n");
+}
+
+int board_write_over(const struct board *base, const struct board *now, char text[BOARD_OVER_MAX])
+{
+	int at = sprintf(text, "# Set on the service page; what stands here lies over the board "
+			       "file.\n");
+	if (now->language != base->language)
+		at += sprintf(text + at, "language = %s\n", language_words[now->language]);
+	if (now->idle_s != base->idle_s)
+		at += sprintf(text + at, "idle_s = %d\n", now->idle_s);
+	if (now->mount.degrees != base->mount.degrees)
+		at += sprintf(text + at, "tablet_rotation = %d\n", now->mount.degrees);
+	if (!same_crosses(&now->mount, &base->mount))
+		at += crosses_write(text + at, &now->mount);
+	return at;
 }

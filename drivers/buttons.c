@@ -15,6 +15,7 @@ void buttons_level(struct buttons_state *state, enum button button, bool pressed
 	if (pressed == !!(state->level & bit))
 		return;
 	state->level ^= bit;
+	state->edges[button]++;
 	state->changed_us[button] = time_us;
 }
 
@@ -42,6 +43,7 @@ static void button_settle(struct buttons_state *state, enum button button, int64
 		state->stuck |= bit;
 	} else if (!((state->held | state->ignored) & bit) && age_us >= BUTTONS_LOCK_US) {
 		state->held |= bit;
+		state->presses[button]++;
 		state->pressed_us[button] = now_us;
 	}
 }

@@ -23,6 +23,8 @@ struct buttons_state {
 	uint8_t ignored;     /* pressed from the start, or stuck: they wait for a release */
 	uint8_t stuck;
 	bool service; /* told already */
+	long edges[BUTTON_COUNT],
+		presses[BUTTON_COUNT]; /* more than two edges a press: it bounces */
 	int64_t changed_us[BUTTON_COUNT];
 	int64_t pressed_us[BUTTON_COUNT]; /* as reported last */
 };
@@ -68,6 +70,9 @@ void buttons_close(struct buttons *buttons);
 
 /* True once when the operator held all buttons. */
 bool buttons_service(struct buttons *buttons);
+
+/* Levels, presses and edges so far; all 0 before a line is found. */
+void buttons_look(struct buttons *buttons, struct buttons_state *state);
 
 /* One line for the service page: what is there, or what is missing or stuck and the remedy. */
 void buttons_text(struct buttons *buttons, char text[LIVE_TEXT_MAX]);

@@ -31,7 +31,8 @@ struct buttons {
 	struct gpiod_edge_event_buffer *events;
 	struct buttons_state state;
 	uint8_t stuck_told;
-	bool service; /* asked for; under the lock */
+	bool service;              /* asked for; under the lock */
+	struct buttons_state look; /* the state as it was last; under the lock */
 	int64_t searched_us;
 	bool plugged;
 };
@@ -249,6 +250,9 @@ static void line_read(struct buttons *b, enum button button)
 /* What only the operator needs to know. */
 static void tell_service(struct buttons *b, int64_t now_us)
 {
+	pthread_mutex_lock(&b->lock);
+	b->look = b->state;
+	pthread_mutex_unlock(&b->lock);
 	if (buttons_chord(&b->state, now_us)) {
 		pthread_mutex_lock(&b->lock);
 		b->service = true;
@@ -351,6 +355,13 @@ bool buttons_service(struct buttons *buttons)
 	buttons->service = false;
 	pthread_mutex_unlock(&buttons->lock);
 	return asked;
+}
+
+void buttons_look(struct buttons *buttons, struct buttons_state *state)
+{
+	pthread_mutex_lock(&buttons->lock);
+	*state = buttons->look;
+	pthread_mutex_unlock(&buttons->lock);
 }
 
 void buttons_text(struct buttons *buttons, char text[LIVE_TEXT_MAX])

@@ -44,7 +44,7 @@ static bool read_board(struct station *station)
 {
 	char wrong[200];
 	size_t size;
-	station->board = board_default;
+	station->board = station->base = board_default;
 	if (!station->board_path)
 		return true;
 	char *text = store_read(station->board_path, &size, station->fault);
@@ -57,32 +57,38 @@ static bool read_board(struct station *station)
 	return read;
 }
 
-/* Journals go to the folder asked for, or to the user's state folder. Without a place to write the
- * visit goes on unsaved, and the operator is told. */
-static void open_journal(struct station *station)
+/* Journals go to the folder asked for, or to the user's state folder. */
+static void find_folder(struct station *station)
 {
-	char folder[PATH_BYTES_MAX / 2], path[PATH_BYTES_MAX], fault[FAULT_BYTES];
 	const char *state = getenv("XDG_STATE_HOME"), *home = getenv("HOME");
-	time_t now = time(NULL);
-	struct tm parts;
+	char *folder = station->folder;
+	size_t size = sizeof station->folder;
 	if (station->journals)
-		snprintf(folder, sizeof folder, "%s", station->journals);
+		snprintf(folder, size, "%s", station->journals);
 	else if (state)
-		snprintf(folder, sizeof folder, "%s/kitsuke", state);
+		snprintf(folder, size, "%s/kitsuke", state);
 	else
-		snprintf(folder, sizeof folder, "%s/.local/state/kitsuke", home ? home : ".");
+		snprintf(folder, size, "%s/.local/state/kitsuke", home ? home : ".");
 	for (char *slash = strchr(folder + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
 		*slash = 0;
 		mkdir(folder, 0777);
 		*slash = '/';
 	}
+}
+
+/* Without a place to write the visit goes on unsaved, and the operator is told. */
+static void open_journal(struct station *station)
+{
+	char path[PATH_BYTES_MAX], fault[FAULT_BYTES];
+	time_t now = time(NULL);
+	struct tm parts;
 	station->journal = -1;
 	station->tape_path[0] = 0;
 	gmtime_r(&now, &parts);
 	char name[64];
 	strftime(name, sizeof name, "visit-%Y%m%d-%H%M%S.kitsuke", &parts);
-	if (store_make_folder(folder, fault) &&
-	    store_join(path, sizeof path, folder, name, fault)) {
+	if (store_make_folder(station->folder, fault) &&
+	    store_join(path, sizeof path, station->folder, name, fault)) {
 		station->journal = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
 		if (station->journal < 0)
 			snprintf(fault, sizeof fault, "%.200s: %s", path, strerror(errno));
@@ -125,6 +131,8 @@ static bool begin_visit(struct station *station)
 	if (station->board.budget_units > 0)
 		kiosk->session.budget_units = station->board.budget_units;
 	kiosk_body_named(kiosk, store_name(name));
+	kiosk->ui.language = (enum language)station->board.language;
+	station->desk->visits++;
 	station_mount_pens(station);
 	for (int device = 0; station->live && device < LIVE_TABLETS_MAX; device++)
 		learn(station, device);
@@ -146,7 +154,8 @@ static bool open_station(struct station *station)
 	station->memory = malloc(KIOSK_MEMORY_BYTES);
 	station->kiosk = calloc(1, sizeof *station->kiosk);
 	station->reports = malloc(sizeof *station->reports);
-	if (!station->memory || !station->kiosk || !station->reports) {
+	station->desk = calloc(1, sizeof *station->desk);
+	if (!station->desk || !station->memory || !station->kiosk || !station->reports) {
 		snprintf(station->fault, FAULT_BYTES, "not enough memory");
 		return false;
 	}
@@ -177,20 +186,23 @@ static unsigned collect(struct station *station)
 {
 	unsigned unplugged = 0;
 	station->reports->count = 0;
+	station->plugged = 0;
 	if (station->live) {
 		struct live_changes changes = live_collect(station->live, station->reports);
 		for (int device = 0; device < LIVE_TABLETS_MAX; device++)
 			if (changes.plugged >> device & 1)
 				learn(station, device);
 		unplugged = changes.unplugged;
+		station->plugged = changes.plugged;
 	}
 	int64_t now_us = live_clock_us() - station->opened_us;
 	if (station->kind == DISPLAY_WINDOW && station->display &&
 	    !display_input(station->display, LIVE_MOUSE, now_us, station->reports))
 		stopped = 1;
-	live_stamp(station->reports, station->kiosk->frame, station->collected_us, now_us);
+	live_stamp(station->reports, station_frame(station), station->collected_us, now_us);
 	station->collected_us = now_us;
-	station_record_frame(station, unplugged);
+	if (!station->desk->open)
+		station_record_frame(station, unplugged);
 	if (station->reports->count > 0)
 		station->touched = station->kiosk->frame;
 	return unplugged;
@@ -200,7 +212,7 @@ static unsigned collect(struct station *station)
 static void pace(struct station *station)
 {
 	int64_t due_us = station->start_us +
-			 (int64_t)station->kiosk->frame * 1000000 / FRAME_RATE_HZ;
+			 (int64_t)station_frame(station) * 1000000 / FRAME_RATE_HZ;
 	int64_t early_us = due_us - live_clock_us();
 	if (early_us < -LATE_US)
 		station->start_us -= early_us + LATE_US;
@@ -228,19 +240,40 @@ static void end_visit(struct station *station)
 	station->journal = -1;
 }
 
+/* Before the operator's page opens, every stroke and every held button ends. */
+static void run_visit(struct station *station, unsigned unplugged)
+{
+	bool opens = station->desk->wanted;
+	if (opens) {
+		station->reports->count = 0;
+		unplugged = (1u << PEN_DEVICES_MAX) - 1;
+	}
+	kiosk_frame(station->kiosk, station->reports, unplugged);
+	write_journal(station, station->kiosk->journal, station->kiosk->journal_size);
+	if (opens)
+		station_open_desk(station);
+}
+
 static bool run(struct station *station)
 {
 	while (!stopped) {
+		bool anew = false;
+		int64_t began_us = live_clock_us();
+		if (station->desk->wanted)
+			station_record_end(station); /* a tape can't say what comes now */
 		unsigned unplugged = collect(station);
-		kiosk_frame(station->kiosk, station->reports, unplugged);
-		write_journal(station, station->kiosk->journal, station->kiosk->journal_size);
+		if (station->desk->open)
+			anew = station_run_desk(station, unplugged);
+		else
+			run_visit(station, unplugged);
+		desk_time(station->desk, live_clock_us() - began_us);
 		if (!station_show(station))
 			return false;
 		service_frame(&station->service, live_clock_us());
 		pace(station);
-		if (station->buttons && buttons_service(station->buttons))
+		if (station_wants_desk(station))
 			station_tell_service(station);
-		if (idle(station)) {
+		if (anew || (!station->desk->open && idle(station))) {
 			end_visit(station);
 			if (!begin_visit(station))
 				return false;
@@ -260,6 +293,7 @@ static void close_station(struct station *station)
 	if (station->live)
 		live_close(station->live);
 	station_close_display(station);
+	free(station->desk);
 	free(station->reports);
 	free(station->kiosk);
 	free(station->memory);
@@ -315,6 +349,8 @@ int command_station(int argc, char **argv)
 		station_say(station.fault);
 		return STATUS_INPUT;
 	}
+	find_folder(&station);
+	station_read_settings(&station);
 	if (!station_choose_display(&station)) {
 		if (station.tape)
 			return replay_instead(&station);

@@ -8,6 +8,7 @@
 #include "draw.h"
 #include "kiosk_late.h"
 #include "live.h"
+#include "desk.h"
 #include "service.h"
 #include "store.h"
 #include "tape_recorder.h"
@@ -32,7 +33,11 @@ struct station {
 	struct live *live;
 	struct buttons *buttons;
 	struct service service;
+	struct desk *desk; /* the operator's page */
+	struct board base; /* as the board file says, without what was set on the page */
+	char folder[PATH_BYTES_MAX / 2]; /* of journals, and of what was set */
 	int64_t start_us; /* of frame 0, on CLOCK_MONOTONIC; moves on with every late frame */
+	unsigned plugged; /* in this frame, a bit a device */
 	int64_t opened_us;
 	int64_t collected_us;           /* of the last frame's reports */
 	int journal;                    /* file, -1: none */
@@ -65,6 +70,23 @@ bool station_show(struct station *station);
 void station_record_begin(struct station *station, const char *journal_path);
 void station_record_frame(struct station *station, unsigned unplugged);
 void station_record_end(struct station *station);
+
+/* The frame that is being shown: the visit stands still while the operator's page is open. */
+static inline int station_frame(const struct station *station)
+{
+	return station->kiosk->frame + station->desk->frames;
+}
+
+/* What was set on the operator's page in earlier days. A fault in it is said, and it is left out.
+ */
+void station_read_settings(struct station *station);
+
+/* Asks for the page: the next frame ends every stroke, and then it opens. */
+bool station_wants_desk(struct station *station);
+void station_open_desk(struct station *station);
+
+/* A frame of the page. True: a visit must begin anew. */
+bool station_run_desk(struct station *station, unsigned unplugged);
 
 /* Tells the operator everything that the machine knows about itself. */
 void station_tell_service(struct station *station);

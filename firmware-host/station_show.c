@@ -15,6 +15,7 @@ enum {
 void station_say(const char *line)
 {
 	fprintf(stderr, "kitsuke: %s\n", line);
+	desk_log(line);
 }
 
 /* KMS when a display is free for us, else a window where there is a desktop session. A card that a
@@ -45,8 +46,10 @@ static void tell_dark(struct station *station)
 	if (strcmp(station->dark, reason) == 0)
 		return;
 	snprintf(station->dark, sizeof station->dark, "%s", reason);
-	fprintf(stderr, "kitsuke: %s%s\n", reason[0] ? "no picture: " : "the picture is back",
-		reason);
+	char line[240];
+	snprintf(line, sizeof line, "%s%s", reason[0] ? "no picture: " : "the picture is back",
+		 reason);
+	station_say(line);
 }
 
 /* GL's objects anew from what the processor has, when there is a new context. */
@@ -126,6 +129,18 @@ static void read_late(struct station *station)
 	kiosk_late_show(&station->late, station->kiosk, reports);
 }
 
+static void draw_picture(struct station *station)
+{
+	struct kiosk *kiosk = station->kiosk;
+	char fault[200];
+	if (station->desk->open && draw_service(station->draw, &station->desk->page, fault))
+		return;
+	draw_service_end(station->draw);
+	read_late(station);
+	draw_frame(station->draw, &kiosk->ui, &kiosk->session);
+	kiosk_late_hide(&station->late, kiosk);
+}
+
 /* Without a display the visit goes on unseen. False: the display has failed for good. */
 bool station_show(struct station *station)
 {
@@ -142,10 +157,8 @@ bool station_show(struct station *station)
 	if (follow_context(station, fault)) {
 		if (station->mounted != station->generation)
 			station_mount_pens(station);
-		read_late(station);
-		draw_frame(station->draw, &kiosk->ui, &kiosk->session);
-		kiosk_late_hide(&station->late, kiosk);
-		display_present(station->display);
+		draw_picture(station);
+		station->desk->late += !display_present(station->display);
 	} else {
 		station_say(fault);
 		station->redraw = kiosk->frame + REDRAW_FRAMES;

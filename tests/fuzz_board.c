@@ -3,6 +3,21 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
+/* What the operator's settings are written as brings them back. */
+static void over_reads_back(const struct board *board)
+{
+	struct board again = board_default;
+	char text[BOARD_OVER_MAX], fault[200];
+	int size = board_write_over(&board_default, board, text);
+	MUST(size > 0 && size < BOARD_OVER_MAX &&
+	     board_read_over(&again, text, (size_t)size, fault));
+	MUST(again.language == board->language && again.idle_s == board->idle_s);
+	MUST(again.mount.degrees == board->mount.degrees);
+	MUST(again.mount.cross_count == board->mount.cross_count);
+	MUST(!memcmp(again.mount.cross, board->mount.cross,
+		     (size_t)again.mount.cross_count * sizeof again.mount.cross[0]));
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
 	struct board board;
@@ -18,5 +33,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 	MUST(board.budget_units >= 0 && board.budget_units <= 9999999);
 	for (int i = 0; i < BUTTON_COUNT; i++)
 		MUST(memchr(board.button_line[i], 0, BOARD_NAME_MAX));
+	MUST(memchr(board.service_pin, 0, sizeof board.service_pin));
+	over_reads_back(&board);
 	return 0;
 }

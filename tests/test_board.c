@@ -90,7 +90,7 @@ static void check_faults(void)
 		{"thread_cpus = 1 2 3 4 5 6 7 8", "line 1: thread_cpus"},
 		{"thread_cpus = 1 any", "line 1: thread_cpus"},
 		{"active_low = maybe", "line 1: active_low = maybe; give yes or no"},
-		{"language = de", "line 1: language = de; give en or ja"},
+		{"language = de", "line 1: language = de; give both, ja or en"},
 		{"tablet = 256c", "line 1: tablet = 256c; give vendor"},
 		{"tablet = 256c:006dx", "line 1: tablet"},
 		{"tablet_rotation = 45", "line 1: tablet_rotation = 45; give 0, 90"},

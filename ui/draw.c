@@ -1,6 +1,7 @@
 /* One frame of the picture, from the back to the front. */
 #include "draw.h"
 #include "draw_private.h"
+#include "draw_service.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -102,6 +103,7 @@ void draw_close(struct draw *draw)
 	ribbons_release(draw);
 	fringe_release(draw);
 	sprites_release(draw);
+	service_sheet_close(draw->service);
 	if (draw->sheet)
 		sheet_close(draw->sheet);
 	if (draw->chrome)
@@ -212,4 +214,30 @@ void draw_frame(struct draw *draw, const struct ui *ui, const struct session *se
 	figure_draw(draw, ui, session);
 	lines_draw(draw, ui, session);
 	overlays_draw(draw);
+}
+
+bool draw_service(struct draw *draw, const struct service_page *page, char fault[200])
+{
+	if (!draw->service)
+		draw->service = service_sheet_open(draw->width, draw->height, fault);
+	if (!draw->service)
+		return false;
+	const struct layer *layer = service_sheet_update(draw->service, page);
+	layer_take(draw, &draw->service_plate, layer);
+	glDisable(GL_SCISSOR_TEST);
+	glDisable(GL_DEPTH_TEST);
+	glViewport(0, 0, draw->width, draw->height);
+	layer_draw(draw, &draw->service_plate, layer, true);
+	return true;
+}
+
+void draw_service_end(struct draw *draw)
+{
+	if (!draw->service)
+		return;
+	service_sheet_close(draw->service);
+	glDeleteFramebuffers(1, &draw->service_plate.framebuffer);
+	glDeleteTextures(1, &draw->service_plate.texture);
+	draw->service = NULL;
+	draw->service_plate.texture = draw->service_plate.framebuffer = 0;
 }

@@ -4,6 +4,7 @@
 #ifndef DRAW_H
 #define DRAW_H
 
+#include "service_page.h"
 #include "ui.h"
 
 struct draw;
@@ -15,6 +16,11 @@ struct draw *draw_open(int width, int height, char fault[200]);
 /* Draws one whole frame into the currently bound framebuffer. */
 void draw_frame(struct draw *draw, const struct ui *ui, const struct session *session);
 void draw_close(struct draw *draw);
+
+/* The operator's page in place of a frame. Its memory is taken when it is first shown, and given
+ * back by draw_service_end. False with a line in fault: it can't be shown. */
+bool draw_service(struct draw *draw, const struct service_page *page, char fault[200]);
+void draw_service_end(struct draw *draw);
 
 /* The body's mesh changed (start, another character). */
 void draw_body_changed(struct draw *draw);

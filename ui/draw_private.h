@@ -262,6 +262,8 @@ struct draw {
 	struct chrome *chrome;
 	const struct layer *sheet_layer, *chrome_layer; /* of this frame */
 	struct plate sheet_plate, chrome_plate;
+	struct service_sheet *service; /* NULL: the page is closed */
+	struct plate service_plate;
 	uint8_t *rows; /* a screenful, on its way up */
 	float px;      /* one pixel of the look's drawing (1080 lines) on this screen */
 	bool bones;
