@@ -237,8 +237,20 @@ static void show_checks(struct station *station)
 	check_solver(station, check);
 }
 
+/* Is there a tablet that is the screen, by the board file or by what is known of the model? */
+static bool pen_display(const struct station *station)
+{
+	bool display = station->board.mount.display;
+	for (int i = 0; i < PEN_DEVICES_MAX; i++) {
+		const struct pen_device *d = &station->desk->pen.device[i];
+		display |= d->kind == DEVICE_PEN && d->display;
+	}
+	return display;
+}
+
 static void show_keys(struct station *station)
 {
+	bool display = pen_display(station);
 	static const char *const language[] = {"日本語 + EN", "日本語", "English"};
 	struct service_page *page = &station->desk->page;
 	const struct board *board = &station->board;
@@ -248,10 +260,10 @@ static void show_keys(struct station *station)
 		 board->idle_s ? "%d s" : "never", board->idle_s);
 	snprintf(page->value[SERVICE_KEY_TURN], sizeof page->value[0], "%d\302\260",
 		 board->mount.degrees);
-	page->dull[SERVICE_KEY_TURN] = board->mount.display;
-	page->dull[SERVICE_KEY_CALIBRATE] = !board->mount.display;
+	page->dull[SERVICE_KEY_TURN] = display;
+	page->dull[SERVICE_KEY_CALIBRATE] = !display;
 	snprintf(page->value[SERVICE_KEY_CALIBRATE], sizeof page->value[0], "%s",
-		 !board->mount.display           ? "pen_display = no"
+		 !display                        ? "no pen display"
 		 : board->mount.cross_count == 0 ? "as built"
 						 : "done");
 }
