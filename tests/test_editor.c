@@ -158,7 +158,36 @@ static void check_symmetry(struct hand *hand)
 	CHECK(v2_distance(before, after) > mm(hand, 15.0f));
 	CHECK(piece_other_corner(piece, 0) == other);
 	CHECK(v2_distance(piece_reflect(piece, after), piece_corner_mm(piece, other)) < 0.01f);
+	/* A line right across it is its new axis. */
 	hand_tap_target(hand, TARGET_TOOL_PENCIL);
+	hand_wait(hand, 0.2f);
+	struct v2 low, high;
+	piece_bounds(piece, &low, &high);
+	float y = low.y + 0.3f * (high.y - low.y); /* between grips */
+	struct v2 line[2] = {paper_px(hand, high.x + 60.0f, y), paper_px(hand, low.x - 50.0f, y)};
+	CHECK_NEAR(piece->axis_rad, 0.5f * PI_F, 1e-4);
+	hand_stroke(hand, line, 2, draw_px_s);
+	hand_wait(hand, 0.3f);
+	CHECK(piece->symmetric && float_abs(angle_sin(piece->axis_rad)) < 0.01f);
+	hand_tap_target(hand, TARGET_UNDO);
+	hand_wait(hand, 0.2f);
+	CHECK_NEAR(piece->axis_rad, 0.5f * PI_F, 1e-4);
+}
+
+/* Moved nearly in line with another piece, it comes to lie in line. */
+static void check_moving(struct hand *hand)
+{
+	struct v2 low, high, low_2, high_2;
+	piece_bounds(piece_of(hand, 0), &low, &high);
+	piece_bounds(piece_of(hand, 1), &low_2, &high_2);
+	struct v2 from = v2_lerp(low_2, high_2, 0.4f);
+	struct v2 to = v2_add(from, (struct v2){low.x - low_2.x + 5.0f, -30.0f});
+	pull(hand, paper_px(hand, from.x, from.y), paper_px(hand, to.x, to.y));
+	piece_bounds(piece_of(hand, 0), &low, &high);
+	piece_bounds(piece_of(hand, 1), &low_2, &high_2);
+	CHECK_NEAR(low.x, low_2.x, 0.05);
+	hand_tap_target(hand, TARGET_UNDO);
+	hand_wait(hand, 0.2f);
 }
 
 /* ---- seams ---- */
@@ -168,6 +197,7 @@ static void check_even(struct hand *hand)
 {
 	hand_tap_target(hand, TARGET_COPY);
 	hand_wait(hand, 0.2f);
+	check_moving(hand);
 	hand_tap_target(hand, TARGET_STEP_SEW);
 	hand_wait(hand, 0.1f);
 	pull(hand, edge_px(hand, 0, 0, 0.5f), edge_px(hand, 1, 0, 0.5f));

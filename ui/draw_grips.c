@@ -113,7 +113,19 @@ void draw_axis(const struct easel *easel, int p)
 
 /* ---- beside a shape in the making ---- */
 
-static void draw_guides(const struct easel *easel)
+struct rect guides_area(const struct easel *easel)
+{
+	const struct shaping *shaping = &easel->ui->shaping;
+	const struct view *view = &easel->ui->view;
+	struct rect area = {0, 0, 0, 0};
+	for (int i = 0; i < shaping->guide_count; i++)
+		area = rect_join(area, rect_around(view_sheet_px(view, shaping->guide_mm[i][0]),
+						   view_sheet_px(view, shaping->guide_mm[i][1]),
+						   20.0 * easel->unit));
+	return area;
+}
+
+void draw_guides(const struct easel *easel)
 {
 	cairo_t *cr = easel->cr;
 	double u = easel->unit, dash[2] = {9.0 * u, 6.0 * u};

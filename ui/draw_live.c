@@ -102,13 +102,7 @@ static struct rect shaping_area(const struct easel *easel)
 	for (int p = 0; p < PIECES_MAX; p++)
 		if (drawn >> p & 1 && pattern->piece[p].used)
 			area = rect_join(area, piece_area(easel, p, none));
-	for (int i = 0; i < easel->ui->shaping.guide_count; i++)
-		area = rect_join(area, rect_around(view_sheet_px(&easel->ui->view,
-								 easel->ui->shaping.guide_mm[i][0]),
-						   view_sheet_px(&easel->ui->view,
-								 easel->ui->shaping.guide_mm[i][1]),
-						   16.0 * easel->unit));
-	return area;
+	return rect_join(area, guides_area(easel));
 }
 
 static void draw_lifted(const struct easel *easel)
@@ -138,7 +132,8 @@ struct rect live_extent(const struct easel *easel)
 	if (ui->gesture == GESTURE_PIECE)
 		area = rect_join(area, rect_around(ui->start_px, ui->start_px, 20.0 * u));
 	if (ui->gesture == GESTURE_MOVE && piece_used(easel->session, ui->piece))
-		area = rect_join(area, piece_area(easel, ui->piece, ui->move_mm));
+		area = rect_join(rect_join(area, guides_area(easel)),
+				 piece_area(easel, ui->piece, ui->move_mm));
 	if (ui->refused.shows)
 		area = rect_join(area, refused_area(easel));
 	if (ui->shaping.shows)
@@ -160,6 +155,7 @@ void draw_live(const struct easel *easel)
 	if (ui->gesture == GESTURE_MOVE && piece_used(easel->session, ui->piece)) {
 		draw_piece(easel, ui->piece, ui->move_mm, true);
 		draw_name(easel, ui->piece, ui->move_mm);
+		draw_guides(easel);
 	}
 	if (ui->refused.shows)
 		draw_refused(easel);

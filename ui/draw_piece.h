@@ -64,6 +64,8 @@ struct rect piece_area(const struct easel *easel, int piece, struct v2 shift_mm)
 void draw_grips(const struct easel *easel);
 /* What goes with a shape that the pen is making: guides, measures, a refusal. */
 void draw_shaping(const struct easel *easel);
+void draw_guides(const struct easel *easel);
+struct rect guides_area(const struct easel *easel);
 void draw_axis(const struct easel *easel, int piece);
 /* Words on a small label about a place, kept within the pane. */
 void draw_label(const struct easel *easel, struct v2 at_px, const char *text, uint32_t colour);

@@ -155,8 +155,8 @@ static void follow(struct tool *tool, struct v2 before_px)
 		ui->view.sheet_centre_mm = v2_sub(ui->view.sheet_centre_mm, shift_mm);
 		break;
 	case GESTURE_MOVE:
-		ui->move_mm = v2_sub(view_sheet_mm(&ui->view, ui->steady_px),
-				     view_sheet_mm(&ui->view, ui->start_px));
+		ui->move_mm = snap_move(tool, v2_sub(view_sheet_mm(&ui->view, ui->steady_px),
+						     view_sheet_mm(&ui->view, ui->start_px)));
 		break;
 	case GESTURE_SEW:
 		tool_sew_move(tool);
@@ -211,6 +211,7 @@ static void contact_end(struct tool *tool)
 	ui->sew_from.piece = ui->sew_to.piece = -1;
 	ui->move_mm = (struct v2){0.0f, 0.0f};
 	ui->shaping.shows = false;
+	ui->shaping.guide_count = 0;
 }
 
 /* ---- what lies under the pen, for highlights ---- */

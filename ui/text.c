@@ -41,6 +41,8 @@ const struct phrase text_phrase[TEXT_COUNT] = {
 				     "Draw the next piece, or copy this one"},
 	[TEXT_HINT_GRIPS] = {"枠をつまんで、大きさと向きを変えよう",
 			     "Pull the frame to resize or turn the piece"},
+	[TEXT_HINT_AXIS] = {"布を横切る線を引くと、折り目が変わります",
+			    "A line across the piece moves its fold"},
 	[TEXT_HINT_POINTS] = {"点や線を引こう。線に軽く触れると、点がふえます",
 			      "Pull points and lines; tap a line for a new point"},
 	[TEXT_HINT_POINTS_NONE] = {"直したい布に触れよう", "Touch the piece you want to change"},
@@ -190,7 +192,7 @@ static enum text hint_sew(const struct ui *ui, const struct pattern *pattern)
 								: TEXT_HINT_SEW_SELECTED;
 }
 
-static enum text hint_draw(const struct ui *ui)
+static enum text hint_draw(const struct ui *ui, const struct session *session)
 {
 	if (ui->drawing == DRAW_BOX || ui->drawing == DRAW_ROUND)
 		return TEXT_HINT_BOX;
@@ -200,6 +202,8 @@ static enum text hint_draw(const struct ui *ui)
 		return ui->corner >= 0 ? TEXT_HINT_CORNER : TEXT_HINT_POINTS;
 	if (ui->shaping.shows || ui->hover_grip != GRIP_NONE)
 		return TEXT_HINT_GRIPS;
+	if (ui->piece >= 0 && session->document.pattern.piece[ui->piece].symmetric)
+		return TEXT_HINT_AXIS;
 	return ui->piece >= 0 ? TEXT_HINT_DRAW_SELECTED : TEXT_HINT_DRAW;
 }
 
@@ -236,7 +240,7 @@ enum text text_hint(const struct ui *ui, const struct session *session, int mark
 		return TEXT_HINT_RELAX;
 	switch (ui->step) {
 	case STEP_DRAW:
-		return hint_draw(ui);
+		return hint_draw(ui, session);
 	case STEP_SEW:
 		return hint_sew(ui, &session->document.pattern);
 	case STEP_MARK:

@@ -119,6 +119,9 @@ enum gesture shape_begin(struct tool *tool, enum grip grip, int which);
 void tool_shape_move(struct tool *tool);
 void tool_shape_end(struct tool *tool);
 
+/* To the next multiple of 15 degrees, if it is near. */
+float shape_snapped_turn(float turn_rad);
+
 /* The draft becomes the document after the edit. */
 void shape_try(struct tool *tool, const struct edit *edit);
 
@@ -146,6 +149,9 @@ void tool_points_delete(struct tool *tool);
 
 /* A corner's place on the sheet, drawn to other corners, to the axis of a symmetric piece, and to
  * lines through its neighbours at multiples of 45 degrees. Notes the lines in ui->shaping. */
+/* A shift of the selected piece, drawn to where a side or the middle of its box lies in line with
+ * that of another. */
+struct v2 snap_move(struct tool *tool, struct v2 move_mm);
 struct v2 snap_corner(struct tool *tool, const struct piece *piece, int corner, struct v2 sheet_mm);
 
 enum gesture tool_sew_begin(struct tool *tool);

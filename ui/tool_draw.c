@@ -134,6 +134,41 @@ static void push_place(struct tool *tool, const struct piece *piece, struct v2 p
 	edit->f[2] = piece->turn_rad;
 }
 
+/* A straight line right across the selected piece, which is symmetric, is its new axis. */
+static bool redraw_axis(struct tool *tool)
+{
+	struct ui *ui = tool->ui;
+	const struct piece *piece = &tool->session->document.pattern.piece[int_max(ui->piece, 0)];
+	if (!piece_used(tool->session, ui->piece) || !piece->symmetric)
+		return false;
+	int count = stroke_smooth(ui), inside = 0;
+	struct v2 ends[2] = {ui->start_px, ui->steady_px}, local[2];
+	float length = v2_distance(ends[0], ends[1]), stray = 0.0f;
+	for (int i = 0; i < count; i++) {
+		struct v2 mm = view_sheet_mm(&ui->view, ui->smooth_px[i]);
+		inside += piece_contains(piece, piece_from_sheet(piece, mm));
+		stray = float_max(stray, stroke_distance(ends, 2, ui->smooth_px[i]));
+	}
+	for (int i = 0; i < 2; i++) {
+		local[i] = piece_from_sheet(piece, view_sheet_mm(&ui->view, ends[i]));
+		if (piece_contains(piece, local[i]))
+			return false;
+	}
+	if (inside == 0 || stray > 0.04f * length + tool_px(ui, 1.5f))
+		return false;
+	struct edit *edit = edit_push(tool->edits, EDIT_FOLD);
+	if (!edit)
+		return true;
+	struct v2 middle = v2_lerp(local[0], local[1], 0.5f);
+	edit->i[0] = ui->piece;
+	edit->i[1] = 1;
+	edit->f[0] = middle.x;
+	edit->f[1] = middle.y;
+	edit->f[2] = shape_snapped_turn(
+		angle_atan2(local[1].y - local[0].y, local[1].x - local[0].x));
+	return true;
+}
+
 void tool_draw_end(struct tool *tool)
 {
 	struct ui *ui = tool->ui;
@@ -143,7 +178,8 @@ void tool_draw_end(struct tool *tool)
 	} else if (ui->gesture == GESTURE_OVERSKETCH && !is_loop(ui) &&
 		   near_outline(ui, tool->session, ui->steady_px, end_reach_mm)) {
 		oversketch(tool);
-	} else if (ui->gesture == GESTURE_PIECE || ui->gesture == GESTURE_OVERSKETCH) {
+	} else if ((ui->gesture == GESTURE_PIECE || ui->gesture == GESTURE_OVERSKETCH) &&
+		   !redraw_axis(tool)) {
 		new_piece(tool);
 	}
 	ui->move_mm = (struct v2){0.0f, 0.0f};

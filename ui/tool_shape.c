@@ -173,8 +173,7 @@ static void resize(struct tool *tool)
 
 /* ---- turning ---- */
 
-/* To the next multiple of 15 degrees, if it is near. */
-static float snapped_turn(float turn_rad)
+float shape_snapped_turn(float turn_rad)
 {
 	float step = PI_F / 12.0f, steps = turn_rad / step;
 	float whole = (float)(int)(steps + (steps < 0.0f ? -0.5f : 0.5f)) * step;
@@ -203,7 +202,7 @@ static void turn(struct tool *tool)
 	float by = angle_from(centre, pen_mm(ui)) - angle_from(centre, start_mm(ui));
 	shaping->draft = *document;
 	struct piece *turned = &shaping->draft.pattern.piece[ui->piece];
-	turned->turn_rad = snapped_turn(wrapped(piece->turn_rad + by));
+	turned->turn_rad = shape_snapped_turn(wrapped(piece->turn_rad + by));
 	struct v2 strayed = v2_sub(centre, piece_to_sheet(turned, middle));
 	turned->position_mm = v2_add(turned->position_mm, strayed);
 	shaping->edit = (struct edit){.kind = EDIT_PLACE, .i = {ui->piece, piece->inside_up}};

@@ -1,5 +1,5 @@
-/* A corner lies best where another one lies, on the axis of a symmetric piece, or straight above,
- * beside or at 45 degrees from its neighbours. */
+/* Pieces lie best in line with others. A corner lies best where another one lies, on the axis of a
+ * symmetric piece, or straight above, beside or at 45 degrees from its neighbours. */
 #include "pattern_shape.h"
 #include "tool.h"
 
@@ -108,4 +108,74 @@ struct v2 snap_corner(struct tool *tool, const struct piece *piece, int corner, 
 	if (second >= 0)
 		note(shaping, ray[second].through, snapped);
 	return snapped;
+}
+
+/* ---- whole pieces ---- */
+
+/* One axis of a box: its low side, its middle, its high side. */
+static float line_of(float low, float high, int line)
+{
+	return line == 0 ? low : line == 2 ? high : 0.5f * (low + high);
+}
+
+/* Of the other pieces' sides and middles the one that is nearest in line; what is missing to it. */
+static bool in_line(const struct tool *tool, bool across, float low, float high, float reach,
+		    float *missing, int *with, float *at)
+{
+	bool found = false;
+	for (int p = 0; p < PIECES_MAX; p++) {
+		const struct piece *piece = &tool->session->document.pattern.piece[p];
+		struct v2 a, b;
+		if (!piece->used || p == tool->ui->piece)
+			continue;
+		piece_bounds(piece, &a, &b);
+		for (int line = 0; line < 3; line++) {
+			float there = across ? line_of(a.x, b.x, line) : line_of(a.y, b.y, line);
+			float by = there - line_of(low, high, line);
+			if (float_abs(by) >= reach)
+				continue;
+			reach = float_abs(by);
+			*missing = by;
+			*with = p;
+			*at = there;
+			found = true;
+		}
+	}
+	return found;
+}
+
+/* From the moved piece to the one that it is in line with. */
+static void note_line(struct tool *tool, bool across, struct v2 low, struct v2 high, int with,
+		      float at)
+{
+	struct v2 a, b;
+	piece_bounds(&tool->session->document.pattern.piece[with], &a, &b);
+	struct v2 from = across ? (struct v2){at, 0.5f * (a.y + b.y)}
+				: (struct v2){0.5f * (a.x + b.x), at};
+	struct v2 to = across ? (struct v2){at, 0.5f * (low.y + high.y)}
+			      : (struct v2){0.5f * (low.x + high.x), at};
+	note(&tool->ui->shaping, from, to);
+}
+
+struct v2 snap_move(struct tool *tool, struct v2 move_mm)
+{
+	struct ui *ui = tool->ui;
+	float reach = tool_sheet_mm(ui, snap_mm), missing, at;
+	struct v2 low, high;
+	int with;
+	ui->shaping.guide_count = 0;
+	if (!piece_used(tool->session, ui->piece))
+		return move_mm;
+	piece_bounds(&tool->session->document.pattern.piece[ui->piece], &low, &high);
+	low = v2_add(low, move_mm);
+	high = v2_add(high, move_mm);
+	if (in_line(tool, true, low.x, high.x, reach, &missing, &with, &at)) {
+		move_mm.x += missing;
+		note_line(tool, true, low, high, with, at);
+	}
+	if (in_line(tool, false, low.y, high.y, reach, &missing, &with, &at)) {
+		move_mm.y += missing;
+		note_line(tool, false, low, high, with, at);
+	}
+	return move_mm;
 }
