@@ -3,6 +3,7 @@
 #ifndef DESK_H
 #define DESK_H
 
+#include "cycle.h"
 #include "kiosk.h"
 #include "service_page.h"
 #include "tape.h"

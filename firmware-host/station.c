@@ -141,7 +141,7 @@ static bool begin_visit(struct station *station)
 	pen_describe(&kiosk->pen, LIVE_KEYS, buttons_descriptor, buttons_descriptor_size);
 	if (station->draw)
 		draw_body_changed(station->draw);
-	station->touched = station->redraw = 0;
+	station->redraw = 0;
 	station->start_us = live_clock_us();
 	open_journal(station);
 	write_journal(station, JOURNAL_HEADER, (int)strlen(JOURNAL_HEADER));
@@ -203,8 +203,6 @@ static unsigned collect(struct station *station)
 	station->collected_us = now_us;
 	if (!station->desk->open)
 		station_record_frame(station, unplugged);
-	if (station->reports->count > 0)
-		station->touched = station->kiosk->frame;
 	return unplugged;
 }
 
@@ -223,11 +221,12 @@ static void pace(struct station *station)
 	}
 }
 
-static bool idle(const struct station *station)
+/* Has the visitor gone, and left something behind? */
+static bool visitor_gone(struct station *station)
 {
-	int frames = station->kiosk->frame - station->touched;
-	return station->board.idle_s > 0 && frames > station->board.idle_s * FRAME_RATE_HZ &&
-	       station->kiosk->session.undo_count > 0;
+	const struct kiosk *kiosk = station->kiosk;
+	return cycle_frame(&station->cycle, &kiosk->input, station->board.idle_s,
+			   kiosk->session.undo_count > 0, (float)station->height / 1080.0f);
 }
 
 static void end_visit(struct station *station)
@@ -273,7 +272,7 @@ static bool run(struct station *station)
 		pace(station);
 		if (station_wants_desk(station))
 			station_tell_service(station);
-		if (anew || (!station->desk->open && idle(station))) {
+		if (anew || (!station->desk->open && visitor_gone(station))) {
 			end_visit(station);
 			if (!begin_visit(station))
 				return false;

@@ -33,6 +33,7 @@ struct station {
 	struct live *live;
 	struct buttons *buttons;
 	struct service service;
+	struct cycle cycle;
 	struct desk *desk; /* the operator's page */
 	struct board base; /* as the board file says, without what was set on the page */
 	char folder[PATH_BYTES_MAX / 2]; /* of journals, and of what was set */
@@ -44,7 +45,6 @@ struct station {
 	char tape_path[PATH_BYTES_MAX]; /* "" none */
 	struct tape_recorder tape_made;
 	struct pen_mount tape_mount; /* how the pens lie, as it stands on the tape */
-	int touched;                 /* last frame with input */
 	int redraw;                  /* frame from which on drawing may be tried again */
 	char dark[200];              /* why there is no picture, as told last */
 	char fault[FAULT_BYTES];

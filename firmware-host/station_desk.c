@@ -340,7 +340,7 @@ static void close_desk(struct station *station)
 	desk->frames = desk->chord = 0;
 	describe_pens(station, &station->kiosk->pen);
 	station_mount_pens(station);
-	station->touched = station->kiosk->frame;
+	station->cycle = (struct cycle){0};
 	station_say("service: the page is closed");
 }
 

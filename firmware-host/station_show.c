@@ -9,6 +9,7 @@ enum {
 	WINDOW_HEIGHT = 720,
 	DARK_WIDTH = 1920, /* of the picture while no screen says its size */
 	DARK_HEIGHT = 1080,
+	ATTRACT_FRAMES = 24 * FRAME_RATE_HZ,
 	REDRAW_FRAMES = 2 * FRAME_RATE_HZ, /* between tries to make GL's objects anew */
 };
 
@@ -129,6 +130,18 @@ static void read_late(struct station *station)
 	kiosk_late_show(&station->late, station->kiosk, reports);
 }
 
+/* While it waits for a visitor the figure turns, in the picture only: once round in 24 s. */
+static void draw_visit(struct station *station)
+{
+	struct ui *ui = &station->kiosk->ui;
+	struct view view = ui->view;
+	if (station->cycle.state == CYCLE_ATTRACT)
+		view_look(&ui->view, 2.0f * PI_F * (float)(station->kiosk->frame % ATTRACT_FRAMES) /
+					     (float)ATTRACT_FRAMES);
+	draw_frame(station->draw, ui, &station->kiosk->session);
+	ui->view = view;
+}
+
 static void draw_picture(struct station *station)
 {
 	struct kiosk *kiosk = station->kiosk;
@@ -137,8 +150,13 @@ static void draw_picture(struct station *station)
 		return;
 	draw_service_end(station->draw);
 	read_late(station);
-	draw_frame(station->draw, &kiosk->ui, &kiosk->session);
+	draw_visit(station);
 	kiosk_late_hide(&station->late, kiosk);
+	if (station->cycle.state == CYCLE_VISIT)
+		draw_notice_end(station->draw);
+	else if (!draw_notice(station->draw, kiosk->ui.language, station->cycle.left_s,
+			      int_min(CYCLE_COUNTDOWN_S, station->board.idle_s / 2), fault))
+		station_say(fault);
 }
 
 /* Without a display the visit goes on unseen. False: the display has failed for good. */

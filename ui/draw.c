@@ -1,5 +1,6 @@
 /* One frame of the picture, from the back to the front. */
 #include "draw.h"
+#include "draw_notice.h"
 #include "draw_private.h"
 #include "draw_service.h"
 
@@ -104,6 +105,7 @@ void draw_close(struct draw *draw)
 	fringe_release(draw);
 	sprites_release(draw);
 	service_sheet_close(draw->service);
+	notice_sheet_close(draw->notice);
 	if (draw->sheet)
 		sheet_close(draw->sheet);
 	if (draw->chrome)
@@ -216,6 +218,13 @@ void draw_frame(struct draw *draw, const struct ui *ui, const struct session *se
 	overlays_draw(draw);
 }
 
+static void plate_drop(struct plate *plate)
+{
+	glDeleteFramebuffers(1, &plate->framebuffer);
+	glDeleteTextures(1, &plate->texture);
+	plate->texture = plate->framebuffer = 0;
+}
+
 bool draw_service(struct draw *draw, const struct service_page *page, char fault[200])
 {
 	if (!draw->service)
@@ -236,8 +245,31 @@ void draw_service_end(struct draw *draw)
 	if (!draw->service)
 		return;
 	service_sheet_close(draw->service);
-	glDeleteFramebuffers(1, &draw->service_plate.framebuffer);
-	glDeleteTextures(1, &draw->service_plate.texture);
+	plate_drop(&draw->service_plate);
 	draw->service = NULL;
-	draw->service_plate.texture = draw->service_plate.framebuffer = 0;
+}
+
+bool draw_notice(struct draw *draw, enum language language, int left_s, int whole_s,
+		 char fault[200])
+{
+	if (!draw->notice)
+		draw->notice = notice_sheet_open(draw->width, draw->height, fault);
+	if (!draw->notice)
+		return false;
+	const struct layer *layer = notice_sheet_update(draw->notice, language, left_s, whole_s);
+	layer_take(draw, &draw->notice_plate, layer);
+	glDisable(GL_SCISSOR_TEST);
+	glDisable(GL_DEPTH_TEST);
+	glViewport(0, 0, draw->width, draw->height);
+	layer_draw(draw, &draw->notice_plate, layer, false);
+	return true;
+}
+
+void draw_notice_end(struct draw *draw)
+{
+	if (!draw->notice)
+		return;
+	notice_sheet_close(draw->notice);
+	plate_drop(&draw->notice_plate);
+	draw->notice = NULL;
 }

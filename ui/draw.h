@@ -22,6 +22,12 @@ void draw_close(struct draw *draw);
 bool draw_service(struct draw *draw, const struct service_page *page, char fault[200]);
 void draw_service_end(struct draw *draw);
 
+/* A card over the frame just drawn: so many of whole_s seconds are left before the station begins
+ * anew; 0: it waits for a visitor. Taken and given back like the page. */
+bool draw_notice(struct draw *draw, enum language language, int left_s, int whole_s,
+		 char fault[200]);
+void draw_notice_end(struct draw *draw);
+
 /* The body's mesh changed (start, another character). */
 void draw_body_changed(struct draw *draw);
 

@@ -264,6 +264,8 @@ struct draw {
 	struct plate sheet_plate, chrome_plate;
 	struct service_sheet *service; /* NULL: the page is closed */
 	struct plate service_plate;
+	struct notice_sheet *notice; /* NULL: none */
+	struct plate notice_plate;
 	uint8_t *rows; /* a screenful, on its way up */
 	float px;      /* one pixel of the look's drawing (1080 lines) on this screen */
 	bool bones;
