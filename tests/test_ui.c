@@ -1,5 +1,6 @@
 /* Steps 1 to 3 and the buttons: what is drawn, redrawn, moved, sewn, marked and erased, by a steady
  * hand and by trembling ones. */
+#include "pattern_shape.h"
 #include "visitor.h"
 
 static int redrawn; /* outlines, of all hands */
@@ -53,6 +54,32 @@ static void check_redrawing(struct hand *hand)
 	piece_bounds(piece_at(hand, 0), &new_low, &new_high);
 	CHECK_NEAR(new_high.x, high.x + 90, 25);
 	redrawn++;
+}
+
+/* Among points the pen's other end takes a point away, not the piece. */
+static void check_erasing_points(struct hand *hand)
+{
+	int edges = piece_edge_count(piece_at(hand, 0));
+	press(hand, TARGET_TOOL_POINTS);
+	watch(hand);
+	hand->eraser = true;
+	int corner = 0;
+	for (int k = 1; k < edges; k++) { /* the lowest on the left */
+		struct v2 a = piece_to_sheet(piece_at(hand, 0),
+					     piece_corner_mm(piece_at(hand, 0), k));
+		struct v2 b = piece_to_sheet(piece_at(hand, 0),
+					     piece_corner_mm(piece_at(hand, 0), corner));
+		corner = a.x + a.y < b.x + b.y ? k : corner;
+	}
+	struct v2 at = piece_to_sheet(piece_at(hand, 0),
+				      piece_corner_mm(piece_at(hand, 0), corner));
+	tap(hand, paper(hand, at.x, at.y));
+	hand->eraser = false;
+	CHECK(sent(hand, EDIT_JOIN) == 1 && sent(hand, EDIT_DELETE) == 0);
+	CHECK(piece_edge_count(piece_at(hand, 0)) == edges - 1);
+	press(hand, TARGET_UNDO);
+	CHECK(piece_edge_count(piece_at(hand, 0)) == edges);
+	press(hand, TARGET_TOOL_PENCIL);
 }
 
 static void check_buttons_of_pieces(struct hand *hand)
@@ -337,6 +364,7 @@ static void visit(struct hand *hand)
 {
 	check_drawing(hand);
 	check_redrawing(hand);
+	check_erasing_points(hand);
 	check_buttons_of_pieces(hand);
 	check_sewing(hand);
 	check_cloth_marks(hand);

@@ -143,6 +143,7 @@ enum gesture tool_points_begin(struct tool *tool);
 enum grip points_hover(const struct tool *tool, int *which); /* what the pen would take */
 void tool_points_move(struct tool *tool);
 void tool_points_tap(struct tool *tool);
+bool tool_points_take(struct tool *tool); /* the corner under the contact's start is chosen */
 void tool_points_delete(struct tool *tool);
 
 /* ---- tool_snap.c ---- */

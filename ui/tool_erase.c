@@ -70,7 +70,9 @@ void tool_erase(struct tool *tool, bool on_sheet, bool tap)
 	struct v2 at = ui->start_px, sheet_mm = view_sheet_mm(&ui->view, at);
 	switch (ui->step) {
 	case STEP_DRAW:
-		if (on_sheet && tap)
+		if (on_sheet && tap && ui->drawing == DRAW_POINTS && tool_points_take(tool))
+			tool_points_delete(tool);
+		else if (on_sheet && tap)
 			push_simple(tool, EDIT_DELETE,
 				    pattern_pick(&tool->session->document.pattern, sheet_mm, 0));
 		break;

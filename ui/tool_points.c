@@ -124,17 +124,25 @@ void tool_points_move(struct tool *tool)
 		bend_edge(tool, shaping->which);
 }
 
+bool tool_points_take(struct tool *tool)
+{
+	struct ui *ui = tool->ui;
+	int corner = -1;
+	if (piece_used(tool->session, ui->piece))
+		corner = pick_corner(ui, selected(tool), ui->start_px);
+	if (corner < 0)
+		return false;
+	ui->corner = corner;
+	return true;
+}
+
 void tool_points_tap(struct tool *tool)
 {
 	struct ui *ui = tool->ui;
-	int edge, corner = -1;
+	int edge;
 	float fraction;
-	if (piece_used(tool->session, ui->piece))
-		corner = pick_corner(ui, selected(tool), ui->start_px);
-	if (corner >= 0) {
-		ui->corner = corner;
+	if (tool_points_take(tool))
 		return;
-	}
 	if (!take_edge(tool, &edge, &fraction)) {
 		tool_select_at(tool);
 		return;

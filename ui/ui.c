@@ -276,8 +276,10 @@ static void follow_document(struct ui *ui, const struct session *session)
 {
 	uint32_t pieces = pieces_used(&session->document.pattern);
 	uint64_t seams = seams_used(&session->document.pattern);
-	if (ui->select_new && (pieces & ~ui->pieces_seen))
+	if (ui->select_new && (pieces & ~ui->pieces_seen)) {
 		ui->piece = lowest_bit(pieces & ~ui->pieces_seen);
+		ui->corner = -1;
+	}
 	if (ui->select_new && (seams & ~ui->seams_seen))
 		ui->seam = lowest_bit(seams & ~ui->seams_seen);
 	if (ui->piece >= 0 && !(pieces >> ui->piece & 1))
