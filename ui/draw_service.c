@@ -163,9 +163,13 @@ static void draw_card(const struct painter *p, enum service_card card)
 	double u = p->u, x = rect.x + PAD_PX * u, y = rect.y + 40.0 * u;
 	draw_box(p, rect, LOOK_PAPER, LOOK_GRID_50);
 	draw_heading(p, &card_name[card], x, y, HEAD_PX * u, LOOK_INK, LOOK_INK_GREY);
+	/* two tablets stand closer than one */
+	double room = (rect.h - 62.0 * u) / int_max(list->count, 1);
+	double pitch = room < LINE_PX * u ? room : LINE_PX * u;
+	y += 6.0 * u;
 	for (int i = 0; i < list->count; i++) {
-		y += LINE_PX * u;
-		if (y > rect.y + rect.h - 8.0 * u)
+		y += pitch;
+		if (y > rect.y + rect.h - 4.0 * u)
 			break;
 		int lines = draw_line(p, &list->line[i], x, y, rect.w - 2.0 * PAD_PX * u);
 		y += (lines - 1) * 1.25 * TEXT_PX * u;
