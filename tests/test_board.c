@@ -91,6 +91,9 @@ static void check_faults(void)
 		{"thread_cpus = 1 any", "line 1: thread_cpus"},
 		{"active_low = maybe", "line 1: active_low = maybe; give yes or no"},
 		{"language = de", "line 1: language = de; give both, ja or en"},
+		{"service_pin = 123", "line 1: service_pin = 123; give 4 to 8 digits"},
+		{"service_pin = 123456789", "line 1: service_pin"},
+		{"service_pin = 12a4", "line 1: service_pin"},
 		{"tablet = 256c", "line 1: tablet = 256c; give vendor"},
 		{"tablet = 256c:006dx", "line 1: tablet"},
 		{"tablet_rotation = 45", "line 1: tablet_rotation = 45; give 0, 90"},
@@ -115,10 +118,40 @@ static void check_faults(void)
 	}
 }
 
+/* What is set at the station lies over the file, all 25 crosses of it, and a fault changes nothing.
+ */
+static void check_over(void)
+{
+	struct board base, now, again;
+	char text[BOARD_OVER_MAX], fault[200];
+	CHECK(read_text(&base, "service_pin = 00420\nidle_s = 90\nbudget = 250000", fault));
+	CHECK(!strcmp(base.service_pin, "00420"));
+	now = again = base;
+	now.idle_s = 0;
+	now.language = BOARD_JAPANESE;
+	now.mount.degrees = 180;
+	now.mount.cross_count = PLANE_MAP_POINTS_MAX;
+	for (int i = 0; i < PLANE_MAP_POINTS_MAX; i++) {
+		int x = 1638399 - 300000 * (i % 5), y = 1638305 - 300000 * (i / 5);
+		now.mount.cross[i] = (struct pen_cross){x, y, x - 105, y - 7};
+	}
+	int size = board_write_over(&base, &now, text);
+	CHECK(size > 0 && size < BOARD_OVER_MAX && !text[size]);
+	CHECK(board_read_over(&again, text, (size_t)size, fault));
+	CHECK(again.idle_s == 0 && again.language == BOARD_JAPANESE && again.mount.degrees == 180);
+	CHECK(again.budget_units == 250000 && !strcmp(again.service_pin, "00420"));
+	CHECK(again.mount.cross_count == PLANE_MAP_POINTS_MAX &&
+	      !memcmp(again.mount.cross, now.mount.cross, sizeof now.mount.cross));
+	again = base;
+	CHECK(!board_read_over(&again, "idle_s = 7\nidle_s = x", 21, fault));
+	CHECK(again.idle_s == 90);
+}
+
 int main(void)
 {
 	check_defaults();
 	check_keys();
 	check_faults();
+	check_over();
 	return test_end();
 }
