@@ -155,6 +155,7 @@ static void clear(struct cloth *cloth, const struct garment *garment, const stru
 	memset(cloth->piece_blown, 0, sizeof cloth->piece_blown);
 	for (int p = 0; p < PIECES_MAX; p++)
 		cloth->piece_gather[p] = (struct gather){{0.0f, 1.0f}, 0.0f, 1.0f};
+	memset(cloth->piece_wide, 0, sizeof cloth->piece_wide);
 	memset(cloth->scratch->stiff, 0, GARMENT_VERTICES_MAX);
 	memset(cloth->scratch->lift_m, 0, GARMENT_VERTICES_MAX * sizeof(float));
 	memset(cloth->scratch->lift_way, 0, GARMENT_VERTICES_MAX * sizeof(struct v3));

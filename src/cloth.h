@@ -26,6 +26,15 @@ struct gather {
 	float share; /* 1: as it is cut */
 };
 
+/* A piece that is let out: across one direction of the flat piece, by shares at knots that follow
+ * one another at right angles to it. step_m 0: it is not. */
+enum { WIDE_KNOTS = 8 };
+struct widening {
+	struct v2 across; /* unit vector */
+	float from_m, step_m;
+	float more[WIDE_KNOTS]; /* 0.2: a fifth wider */
+};
+
 struct cloth_settings {
 	float shape;        /* 0..1: share of a triangle's way back to its rest shape */
 	int shape_passes;   /* over all triangles in one sweep */
@@ -67,6 +76,7 @@ struct cloth {
 	bool piece_drawn[PIECES_MAX];     /* attract_m works on this piece, ... */
 	bool piece_blown[PIECES_MAX];     /* ... inflate_m on this one */
 	struct gather piece_gather[PIECES_MAX];
+	struct widening piece_wide[PIECES_MAX];
 	int *particle;             /* per vertex: itself, or weld[] once welded */
 	struct triangle *triangle; /* through particle[] */
 	int *star_first;           /* per particle + 1: its corners are star[star_first[v] ..], */
@@ -100,6 +110,9 @@ void cloth_start(struct cloth *cloth, const struct garment *garment, const struc
 void cloth_sew(struct cloth *cloth);
 void cloth_join(struct cloth *cloth);
 long cloth_build_on(struct cloth *cloth, long quota);
+
+/* The same at once, as when piece_gather and piece_wide were changed. */
+void cloth_build(struct cloth *cloth);
 
 /* One sweep. Returns the units spent (constraint projections and triangles walked). */
 long cloth_sweep(struct cloth *cloth);

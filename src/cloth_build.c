@@ -196,6 +196,7 @@ static uint64_t mesh_id(const struct cloth *cloth)
 	hash = MIX(hash, garment->triangle, garment->triangle_count);
 	hash = MIX(hash, garment->pair, garment->pair_count);
 	hash = MIX(hash, cloth->piece_gather, PIECES_MAX);
+	hash = MIX(hash, cloth->piece_wide, PIECES_MAX);
 	return hash | 1;
 }
 

@@ -4,13 +4,13 @@
  * that of the edge's unfolded source, which is exact on flat cloth and over seams (Reimers 2004).
  */
 #include "cloth_private.h"
+#include "cloth_widen.h"
 
 /* ---- once for a mesh ---- */
 
-/* What an edge p-r of a triangle is to its third corner, q. */
-static struct aside aside_of(struct v2 p, struct v2 q, struct v2 r)
+/* What an edge p-r of a triangle, `along`, is to its third corner, which lies from p as `to`. */
+static struct aside aside_of(struct v2 to, struct v2 along)
 {
-	struct v2 along = v2_sub(r, p), to = v2_sub(q, p);
 	float length = v2_length(along);
 	struct aside aside = {v2_length(to), 0.0f, 0.0f};
 	if (length < 1e-7f)
@@ -26,12 +26,15 @@ void march_build(struct cloth *cloth)
 	const struct garment *garment = cloth->garment;
 	struct cloth_scratch *s = cloth->scratch;
 	for (int i = 0; i < 3 * garment->triangle_count; i++) {
-		const int *v = garment->triangle[cloth->star[i] >> 2].v;
-		int k = cloth->star[i] & 3;
-		struct v2 at = garment->rest_m[v[k]], next = garment->rest_m[v[(k + 1) % 3]],
-			  last = garment->rest_m[v[(k + 2) % 3]];
-		s->aside[2 * i] = aside_of(at, next, last);
-		s->aside[2 * i + 1] = aside_of(at, last, next);
+		int t = cloth->star[i] >> 2, k = cloth->star[i] & 3;
+		const int *v = garment->triangle[t].v;
+		struct v2 at = garment->rest_m[v[k]];
+		struct v2 next = v2_sub(garment->rest_m[v[(k + 1) % 3]], at),
+			  last = v2_sub(garment->rest_m[v[(k + 2) % 3]], at);
+		next = cloth_widened(cloth, t, next);
+		last = cloth_widened(cloth, t, last);
+		s->aside[2 * i] = aside_of(next, last);
+		s->aside[2 * i + 1] = aside_of(last, next);
 	}
 }
 

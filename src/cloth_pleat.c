@@ -4,6 +4,7 @@
  */
 #include "cloth_pleat.h"
 #include "cloth_private.h"
+#include "cloth_widen.h"
 
 static const float pleated_share =
 	0.93f;                     /* of the longer side; above it is ease, which stretches */
@@ -115,5 +116,5 @@ struct v2 cloth_flat_way(const struct cloth *cloth, int t, int from, int to)
 		sum.yy += squeeze[v[k]].yy;
 	}
 	struct v2 less = {sum.xx * way.x + sum.xy * way.y, sum.xy * way.x + sum.yy * way.y};
-	return v2_add(way, v2_scale(less, 1.0f / 3.0f));
+	return cloth_widened(cloth, t, v2_add(way, v2_scale(less, 1.0f / 3.0f)));
 }

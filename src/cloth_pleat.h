@@ -17,7 +17,7 @@ bool cloth_pleats(const struct garment *garment, int *at, struct pleats *pleats)
 /* Finds where cloth is squeezed. */
 void cloth_build_pleats(struct cloth *cloth);
 
-/* From one corner of triangle t to another at rest, as gathers and pleats leave it. */
+/* From one corner of triangle t to another at rest, as gathers, pleats and letting out leave it. */
 struct v2 cloth_flat_way(const struct cloth *cloth, int t, int from, int to);
 
 #endif

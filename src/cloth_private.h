@@ -227,7 +227,6 @@ static inline float layer_lift(const struct cloth *cloth, int v)
 /* What hangs on which vertices are one: triangles, flatness, neighbours, order, levels
  * (cloth_build.c calls the others). Begun, it is built in steps by cloth_build_on. */
 void cloth_build_begin(struct cloth *cloth);
-void cloth_build(struct cloth *cloth); /* from beginning to end */
 void cloth_order(struct cloth *cloth);
 void cloth_begin_levels(struct cloth *cloth);
 bool cloth_build_levels(struct cloth *cloth, long quota, long *units); /* true: all of them */

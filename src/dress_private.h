@@ -44,6 +44,7 @@ struct wrap_scratch {
 	float off_m;               /* how far it was at the last look */
 	bool disagree;             /* the marks were found to pull seams apart */
 	int rounds;                /* folds turned back so far */
+	bool wide;                 /* pieces are let out once they are on the body */
 	struct mark_line on_body, on_cloth;
 	struct v3 drawn[MARK_POINTS_MAX];
 };

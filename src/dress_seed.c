@@ -18,10 +18,20 @@ static const float cleft_depth_m = 0.06f;
 static const float looks_down = -0.35f; /* y of a normal */
 static const float lengths_differ = 0.3f;
 
+/* A garment that is dressed a second time has the same to be said of it. */
+static bool is_said(const struct diagnoses *list, const char *kind, int mark_1, int mark_2)
+{
+	for (int i = 0; i < list->count; i++)
+		if (strcmp(list->item[i].kind, kind) == 0 && list->item[i].mark[0] == mark_1 &&
+		    list->item[i].mark[1] == mark_2)
+			return true;
+	return false;
+}
+
 void wrap_diagnose(struct wrap *wrap, const char *kind, int mark_1, int mark_2, const char *text)
 {
 	struct diagnoses *list = &wrap->diagnoses;
-	if (list->count == DIAGNOSES_MAX)
+	if (list->count == DIAGNOSES_MAX || is_said(list, kind, mark_1, mark_2))
 		return;
 	struct diagnosis *d = &list->item[list->count++];
 	memset(d, 0, sizeof *d);

@@ -2,6 +2,7 @@
  * stages; every stage is a number of sweeps with its own settings. wrap_advance is its table of
  * contents. */
 #include "cloth_self.h"
+#include "cloth_widen.h"
 #include "dress_private.h"
 
 enum {
@@ -143,7 +144,7 @@ static void begin(struct wrap *wrap, struct cloth *cloth, const struct marks *ma
 	wrap->frames = 0;
 	wrap->mark_error_rms_m = wrap->mark_error_max_m = 0.0f;
 	memset(&wrap->diagnoses, 0, sizeof wrap->diagnoses);
-	wrap->scratch->mended = wrap->scratch->from_drape = false;
+	wrap->scratch->mended = wrap->scratch->from_drape = wrap->scratch->wide = false;
 	for (int part = 0; part < PART_COUNT; part++)
 		wrap->scratch->opening[part] = -1;
 	for (int number = 0; number < MARK_NUMBERS; number++)
@@ -336,6 +337,8 @@ static long fill(struct wrap *wrap)
 	long units = 0;
 	if (wrap->cloth->body == s->full) {
 		wrap_let_out(wrap);
+		if (s->wide)
+			cloth_let_out(wrap->cloth);
 		wrap_find_blown(wrap);
 		enter(wrap, WRAP_UNFOLD, unfolding());
 		return 1;
@@ -381,6 +384,21 @@ static void diagnose_left(struct wrap *wrap, bool inside)
 			      "wrap it by marks.");
 }
 
+/* What the body still stretches when all is at rest is too narrow for it. It has rolled up by then:
+ * the garment is dressed once more, and let out as soon as it is on the body. */
+static bool is_too_narrow(struct wrap *wrap)
+{
+	int piece = wrap->scratch->wide ? -1 : cloth_narrow_piece(wrap->cloth);
+	if (piece < 0)
+		return false;
+	wrap->scratch->wide = true;
+	int mark = wrap_piece_mark(wrap, piece);
+	wrap_diagnose(wrap, "let_out", mark, 0,
+		      mark ? "The cloth of mark %1 is too narrow for the body; it was let out."
+			   : "Some cloth is too narrow for the body; it was let out.");
+	return true;
+}
+
 static long settle(struct wrap *wrap)
 {
 	struct cloth *cloth = wrap->cloth;
@@ -389,6 +407,11 @@ static long settle(struct wrap *wrap)
 	wrap->progress++;
 	if (after < 0)
 		return cloth_sweep(cloth);
+	if (after == 0 && is_too_narrow(wrap)) {
+		cloth_reset(cloth, cloth->garment, wrap->scratch->full);
+		lay_marks(wrap);
+		return cloth->garment->triangle_count;
+	}
 	if (after < PUSH_ROUNDS && cloth_push_out(cloth, 0, 1, &units) > 0)
 		return units + cloth_sweep(cloth);
 	wrap_check(wrap);

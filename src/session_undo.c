@@ -21,6 +21,7 @@ struct undo {
 	struct v3 *position_m; /* a state on its way back to the cloth */
 	uint8_t *placed, *creased;
 	struct gather gather[PIECES_MAX];
+	struct widening wide[PIECES_MAX];
 };
 
 struct undo *undo_init(struct arena *arena)
@@ -90,7 +91,8 @@ static void pass(struct stream *stream, void *data, size_t size)
 
 /* What a state is: document, garment, the cloth's places, and whether a wrap was under way. */
 static void pass_state(struct stream *stream, struct session *session, struct v3 *position_m,
-		       uint8_t *placed, uint8_t *creased, struct gather *gather, bool *wrapping)
+		       uint8_t *placed, uint8_t *creased, struct gather *gather,
+		       struct widening *wide, bool *wrapping)
 {
 	struct garment *garment = &session->garment;
 	PASS(stream, &session->document, 1);
@@ -118,6 +120,7 @@ static void pass_state(struct stream *stream, struct session *session, struct v3
 	PASS(stream, placed, garment->vertex_count);
 	PASS(stream, creased, garment->vertex_count);
 	PASS(stream, gather, PIECES_MAX);
+	PASS(stream, wide, PIECES_MAX);
 }
 
 /* ---- the stock of pages ---- */
@@ -160,13 +163,13 @@ static void save(struct session *session, int next)
 	bool wrapping = session->job != JOB_NONE;
 	struct stream stream = {.undo = undo};
 	pass_state(&stream, session, cloth->position_m, cloth->placed, cloth->creased,
-		   cloth->piece_gather, &wrapping);
+		   cloth->piece_gather, cloth->piece_wide, &wrapping);
 	drop(undo, undo->now);
 	make_room(undo, stream.size, int_min(undo->now, next), int_max(undo->now, next));
 	stream.direction = WRITING;
 	stream.link = state_pages(undo, undo->now);
 	pass_state(&stream, session, cloth->position_m, cloth->placed, cloth->creased,
-		   cloth->piece_gather, &wrapping);
+		   cloth->piece_gather, cloth->piece_wide, &wrapping);
 }
 
 static void restore(struct session *session)
@@ -177,12 +180,13 @@ static void restore(struct session *session)
 	struct stream stream = {.undo = undo, .direction = READING};
 	stream.link = state_pages(undo, undo->now);
 	pass_state(&stream, session, undo->position_m, undo->placed, undo->creased, undo->gather,
-		   &wrapping);
+		   undo->wide, &wrapping);
 	cloth_restore(cloth, &session->garment, &session->body, undo->position_m, undo->placed,
 		      cloth->welded, cloth->worn);
 	memcpy(cloth->creased, undo->creased, (size_t)session->garment.vertex_count);
 	memcpy(cloth->piece_gather, undo->gather, sizeof undo->gather);
-	cloth_take_gathers(cloth);
+	memcpy(cloth->piece_wide, undo->wide, sizeof undo->wide);
+	cloth_build(cloth);
 	session_resume(session, wrapping);
 }
 
