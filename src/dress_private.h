@@ -49,6 +49,14 @@ struct wrap_scratch {
 	struct v3 drawn[MARK_POINTS_MAX];
 };
 
+/* The settings of the stages (dress_settings.c): while cloth is laid ring by ring, while seams
+ * close, while the body fills the garment, while pleats are blown out, and to come to rest. */
+struct cloth_settings wrap_growing(void);
+struct cloth_settings wrap_closing(void);
+struct cloth_settings wrap_filling(void);
+struct cloth_settings wrap_unfolding(void);
+struct cloth_settings wrap_settling(void);
+
 /* Puts the triangles under the marks on the body (dress_seed.c). Returns the vertices seeded. */
 int wrap_seed(struct wrap *wrap);
 

@@ -13,6 +13,7 @@ enum {
 	WELD_SWEEPS = 12,
 	FILL_STEPS = 9,  /* of the body */
 	FILL_SWEEPS = 3, /* a step */
+	WIDEN_SWEEPS = 16,
 	UNFOLD_ROUNDS = 6,
 	UNFOLD_SWEEPS = 16,
 	SETTLE_SWEEPS = 64,
@@ -38,71 +39,6 @@ void wrap_init(struct wrap *wrap, struct arena *arena)
 	wrap->scratch = s;
 }
 
-/* ---- the settings of each stage: tried on shirts, a skirt and trousers ---- */
-
-static struct cloth_settings growing(void)
-{
-	struct cloth_settings set = cloth_settings_worn();
-	set.shape_passes = 2;
-	set.flatness = 0.2f;
-	set.reach = 0.0f;
-	set.momentum = 0.0f;
-	set.gravity_m = 0.0f;
-	set.friction = 0.2f;
-	set.grip = 0.0f;
-	set.filter_parts = true;
-	set.faces = false;
-	set.open = false;
-	set.strain_bound = 0.0f;
-	set.thickness_m = 0.0f; /* what lies over itself is still to come apart */
-	set.seam_step_m = 0.0f;
-	set.attract_m = 0.001f;
-	return set;
-}
-
-static struct cloth_settings closing(void)
-{
-	struct cloth_settings set = growing();
-	set.flatness = 0.06f;
-	set.momentum = 0.8f;
-	set.seam_step_m = 0.003f;
-	set.attract_m = 0.0f;
-	return set;
-}
-
-static struct cloth_settings filling(void)
-{
-	struct cloth_settings set = closing();
-	set.momentum = 0.0f;
-	set.friction = 0.0f;
-	return set;
-}
-
-/* Cloth wider than the body lies on it in pleats. Blown up until it is taut round the air, it has
- * none; and then it settles in the few folds that its weight makes. */
-static struct cloth_settings unfolding(void)
-{
-	struct cloth_settings set = growing();
-	set.flatness = 0.2f;
-	set.momentum = 0.3f;
-	set.friction = 0.0f;
-	set.grip = 0.0f;
-	set.offset_m += 0.004f;
-	set.inflate_m = 0.001f;
-	set.filter_parts = false;
-	set.open = true;
-	return set;
-}
-
-static struct cloth_settings settling(void)
-{
-	struct cloth_settings set = cloth_settings_worn();
-	set.shape_passes = 2;
-	return set;
-}
-
-/* ---- the stages ---- */
-
 static void enter(struct wrap *wrap, enum wrap_stage stage, struct cloth_settings settings)
 {
 	wrap->stage = stage;
@@ -124,7 +60,7 @@ static bool lay_marks(struct wrap *wrap)
 	wrap->cloth->body = wrap->scratch->full;
 	wrap->scratch->rounds = 0;
 	wrap->scratch->disagree = false;
-	wrap->cloth->settings = growing();
+	wrap->cloth->settings = wrap_growing();
 	if (wrap_seed(wrap) == 0)
 		return false;
 	wrap_grow_init(wrap);
@@ -132,7 +68,7 @@ static bool lay_marks(struct wrap *wrap)
 	if (body_slim_make(&wrap->scratch->slim, wrap->scratch->full, wrap->scratch->limb,
 			   wrap_whole_parts(wrap), wrap->scratch->toward))
 		turn_to(wrap->cloth, &wrap->scratch->slim.body);
-	enter(wrap, WRAP_GROW, growing());
+	enter(wrap, WRAP_GROW, wrap_growing());
 	return true;
 }
 
@@ -158,14 +94,14 @@ void wrap_from(struct wrap *wrap, struct cloth *cloth, const struct marks *marks
 	wrap->scratch->rounds = 0;
 	wrap->scratch->disagree = false;
 	wrap->scratch->from_drape = wrap->scratch->mended = true;
-	cloth->settings = growing();
+	cloth->settings = wrap_growing();
 	wrap_find_homes(wrap);
 	for (int v = 0; v < cloth->garment->vertex_count; v++) {
 		cloth->position_m[v] = position_m[v];
 		cloth->placed[v] = 1;
 	}
 	wrap_mend_start(wrap);
-	enter(wrap, WRAP_CLOSE, closing());
+	enter(wrap, WRAP_CLOSE, wrap_closing());
 	wrap->progress = CLOSE_SWEEPS + 1;
 }
 
@@ -216,7 +152,7 @@ static long grow(struct wrap *wrap)
 		int placed = wrap_grow_ring(wrap);
 		if (placed == 0) {
 			diagnose_unreached(wrap);
-			enter(wrap, WRAP_CLOSE, closing());
+			enter(wrap, WRAP_CLOSE, wrap_closing());
 			return 1;
 		}
 		wrap->progress++;
@@ -282,7 +218,7 @@ static void end_close(struct wrap *wrap)
 	}
 	if (3 * wide <= count) {
 		cloth_sew(cloth);
-		enter(wrap, WRAP_WELD, closing());
+		enter(wrap, WRAP_WELD, wrap_closing());
 		return;
 	}
 	turn_to(cloth, wrap->scratch->full);
@@ -290,7 +226,7 @@ static void end_close(struct wrap *wrap)
 	wrap_diagnose(wrap, "not-sewn", 0, 0,
 		      "The marks hold sewn edges too far apart; the seams stay open. Redraw the "
 		      "marks so that they fit the seams.");
-	enter(wrap, WRAP_SETTLE, settling());
+	enter(wrap, WRAP_SETTLE, wrap_settling());
 }
 
 /* Some seams have not met yet. */
@@ -325,9 +261,23 @@ static long weld(struct wrap *wrap)
 		cloth_join(wrap->cloth);
 	if (wrap->progress++ < WELD_SWEEPS)
 		return sweep(wrap);
-	enter(wrap, WRAP_FILL, filling());
+	enter(wrap, WRAP_FILL, wrap_filling());
 	wrap_meet_all(wrap);
 	return 1;
+}
+
+/* Once the body is whole: what is too narrow for it is let out, and takes its new shape in some
+ * sweeps. False: it has, or nothing is too narrow. */
+static bool take_width(struct wrap *wrap, long *units)
+{
+	int after = wrap->progress - (FILL_STEPS - 1) * FILL_SWEEPS - 1;
+	if (!wrap->scratch->wide || after > WIDEN_SWEEPS)
+		return false;
+	if (after == 0)
+		cloth_let_out(wrap->cloth);
+	*units += after == 0 ? wrap->cloth->garment->triangle_count : sweep(wrap);
+	wrap->progress++;
+	return true;
 }
 
 /* The slim body grows into the garment; it ends as the body itself. */
@@ -336,11 +286,11 @@ static long fill(struct wrap *wrap)
 	struct wrap_scratch *s = wrap->scratch;
 	long units = 0;
 	if (wrap->cloth->body == s->full) {
+		if (take_width(wrap, &units))
+			return units;
 		wrap_let_out(wrap);
-		if (s->wide)
-			cloth_let_out(wrap->cloth);
 		wrap_find_blown(wrap);
-		enter(wrap, WRAP_UNFOLD, unfolding());
+		enter(wrap, WRAP_UNFOLD, wrap_unfolding());
 		return 1;
 	}
 	if (wrap->progress % FILL_SWEEPS == 0) {
@@ -364,7 +314,7 @@ static long unfold(struct wrap *wrap)
 	long units = 0;
 	if (wrap->progress % UNFOLD_SWEEPS == 0) {
 		if (s->rounds++ >= UNFOLD_ROUNDS || cloth_unfold(cloth, 0, 1, &units) == 0) {
-			enter(wrap, WRAP_SETTLE, settling());
+			enter(wrap, WRAP_SETTLE, wrap_settling());
 			return units + 1;
 		}
 	}
@@ -426,7 +376,7 @@ static long move(struct wrap *wrap)
 {
 	if (wrap_has_moved(wrap)) {
 		memset(wrap->cloth->held, 0, (size_t)wrap->cloth->garment->vertex_count);
-		enter(wrap, WRAP_SETTLE, settling());
+		enter(wrap, WRAP_SETTLE, wrap_settling());
 		return 1;
 	}
 	wrap->progress++;
