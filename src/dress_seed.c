@@ -22,8 +22,8 @@ static const float lengths_differ = 0.3f;
 static bool is_said(const struct diagnoses *list, const char *kind, int mark_1, int mark_2)
 {
 	for (int i = 0; i < list->count; i++)
-		if (strcmp(list->item[i].kind, kind) == 0 && list->item[i].mark[0] == mark_1 &&
-		    list->item[i].mark[1] == mark_2)
+		if (memcmp(list->item[i].kind, kind, strlen(kind) + 1) == 0 &&
+		    list->item[i].mark[0] == mark_1 && list->item[i].mark[1] == mark_2)
 			return true;
 	return false;
 }
