@@ -6,9 +6,12 @@
 #include "cloth_widen.h"
 #include "cloth_private.h"
 
-static const float worth = 0.08f; /* mean stretch of a piece that is let out */
-static const float kept = 0.05f;  /* what stays as stretch: cloth that just grew round a body is
-				     drawn out by as much for a while */
+static const float worth = 0.08f;  /* mean stretch of a piece that is let out */
+static const float spread = 0.05f; /* ... and all over: cloth that is caught somewhere is drawn out
+				      there alone, */
+static const float caught = 0.2f;  /* where no more than this counts */
+static const float kept = 0.05f;   /* what stays as stretch: cloth that just grew round a body is
+				      drawn out by as much for a while */
 
 /* A symmetric map of the flat cloth, and the area that it stands for. */
 struct mean {
@@ -134,10 +137,30 @@ static int mean_stretches(const struct cloth *cloth, struct mean mean[PIECES_MAX
 	return found;
 }
 
+/* How far a piece is stretched along a direction, if no place counts for more than `caught`. */
+static float spread_stretch(const struct cloth *cloth, int piece, struct v2 e)
+{
+	float sum = 0.0f, area_m2 = 0.0f;
+	for (int t = 0; t < cloth->garment->triangle_count; t++) {
+		if (cloth->garment->triangle_piece[t] != piece || !triangle_placed(cloth, t))
+			continue;
+		struct mean mean = stretched(cloth, t);
+		float more = e.x * e.x * mean.xx + 2.0f * e.x * e.y * mean.xy + e.y * e.y * mean.yy;
+		sum += mean.area_m2 * float_clamp(more, -caught, caught);
+		area_m2 += mean.area_m2;
+	}
+	return sum / float_max(area_m2, 1e-10f);
+}
+
 int cloth_narrow_piece(const struct cloth *cloth)
 {
 	struct mean mean[PIECES_MAX];
-	return mean_stretches(cloth, mean);
+	struct v2 across;
+	int piece = mean_stretches(cloth, mean);
+	if (piece < 0)
+		return -1;
+	principal(&mean[piece], &across);
+	return spread_stretch(cloth, piece, across) > spread ? piece : -1;
 }
 
 void cloth_let_out(struct cloth *cloth)
