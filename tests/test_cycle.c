@@ -1,6 +1,7 @@
 /* Who is there, who has gone, and what the screen says of it. KITSUKE_PICTURES=DIR keeps pictures.
  */
 #include "cycle.h"
+#include "leaks.h"
 #include "limits.h"
 #include "picture.h"
 #include "scene.h"

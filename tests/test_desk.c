@@ -1,5 +1,6 @@
 /* The operator's page, from raw reports to what it does: the PIN, the settings' file, calibration
  * and the pictures. KITSUKE_PICTURES=DIR keeps them. */
+#include "leaks.h"
 #include "picture.h"
 #include "snapshot.h"
 #include "station.h"
