@@ -1,9 +1,11 @@
-/* A dozen lines of test support: CHECK prints and counts, test_end makes the exit status. */
+/* A few lines of test support: CHECK prints and counts, test_end makes the exit status. */
 #ifndef TEST_H
 #define TEST_H
 
 #include <stdio.h>
 #include <stdlib.h>
+
+enum { TEST_FOLDER_BYTES = 80 }; /* a socket's path has room for 108, its name included */
 
 static int test_failures;
 
@@ -25,6 +27,18 @@ static int test_failures;
 			test_failures++;                                                           \
 		}                                                                                  \
 	} while (0)
+
+/* A folder of this run's own, which the test removes. */
+static inline void test_folder(char folder[TEST_FOLDER_BYTES])
+{
+	const char *base = getenv("TMPDIR");
+	int size = snprintf(folder, TEST_FOLDER_BYTES, "%s/kitsuke-XXXXXX",
+			    base && *base ? base : "/tmp");
+	if (size < TEST_FOLDER_BYTES && mkdtemp(folder))
+		return;
+	perror(folder);
+	exit(EXIT_FAILURE);
+}
 
 static inline int test_end(void)
 {

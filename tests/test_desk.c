@@ -16,7 +16,7 @@ struct bench {
 	struct station station;
 	struct snapshot shot;
 	bool seen; /* pictures can be made here */
-	char folder[64];
+	char folder[TEST_FOLDER_BYTES];
 };
 
 /* The desktop's mouse as a pen: seven bytes, see mouse_descriptor. */
@@ -247,7 +247,7 @@ static bool bench_open(struct bench *bench)
 {
 	struct station *station = &bench->station;
 	char fault[FAULT_BYTES];
-	snprintf(bench->folder, sizeof bench->folder, "/tmp/kitsuke-desk-XXXXXX");
+	test_folder(bench->folder);
 	station->journal = -1;
 	station->kind = DISPLAY_WINDOW;
 	station->board = station->base = board_default;
@@ -257,8 +257,7 @@ static bool bench_open(struct bench *bench)
 	station->kiosk = calloc(1, sizeof *station->kiosk);
 	station->reports = calloc(1, sizeof *station->reports);
 	station->desk = calloc(1, sizeof *station->desk);
-	if (!mkdtemp(bench->folder) || !station->memory || !station->kiosk || !station->reports ||
-	    !station->desk)
+	if (!station->memory || !station->kiosk || !station->reports || !station->desk)
 		return false;
 	snprintf(station->folder, sizeof station->folder, "%s", bench->folder);
 	kiosk_init(station->kiosk, station->memory, WIDTH, HEIGHT);
@@ -276,8 +275,10 @@ static bool bench_open(struct bench *bench)
 int main(void)
 {
 	static struct bench bench;
-	if (!bench_open(&bench))
+	if (!bench_open(&bench)) {
+		rmdir(bench.folder);
 		return 77;
+	}
 	pin_opens(&bench);
 	page_tells(&bench);
 	settings_are_kept(&bench);

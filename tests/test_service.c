@@ -6,7 +6,6 @@
 #include <stddef.h>
 #include <string.h>
 #include <sys/socket.h>
-#include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
 
@@ -81,10 +80,9 @@ static void check_nobody(const char *name)
 
 int main(void)
 {
-	char folder[64], path[96], abstract[64];
+	char folder[TEST_FOLDER_BYTES], path[TEST_FOLDER_BYTES + 16], abstract[64];
 	char long_name[200];
-	snprintf(folder, sizeof folder, "/tmp/kitsuke-service-%d", (int)getpid());
-	CHECK(mkdir(folder, 0700) == 0);
+	test_folder(folder);
 	snprintf(path, sizeof path, "%s/notify", folder);
 	snprintf(abstract, sizeof abstract, "@kitsuke-test-%d", (int)getpid());
 	check_words(path);
