@@ -38,11 +38,9 @@ static void draw_box(const struct easel *easel, const struct piece *piece)
 	struct v2 top = grip_px(ui, piece, GRIP_WIDTH, 2), turn = grip_px(ui, piece, GRIP_TURN, 0);
 	move_to(cr, top);
 	line_to(cr, turn);
-	cairo_set_dash(cr, dash, 2, 0.0);
 	cairo_set_line_width(cr, 1.8 * u);
 	ink(cr, LOOK_INK_GREY, 0.8);
-	cairo_stroke(cr);
-	cairo_set_dash(cr, NULL, 0, 0.0);
+	stroke_dashed(cr, dash, 2);
 	for (int k = 0; k < 4; k++) {
 		bead(easel, grip_px(ui, piece, GRIP_SIZE, k), 10.0, bead_colour(ui, GRIP_SIZE, k));
 		if (grip_fits(ui, piece, k))
@@ -104,11 +102,9 @@ void draw_axis(const struct easel *easel, int p)
 	cairo_set_line_width(cr, 5.0 * u);
 	ink(cr, 0xffffff, 0.6);
 	cairo_stroke_preserve(cr);
-	cairo_set_dash(cr, dash, 4, 0.0);
 	cairo_set_line_width(cr, 2.2 * u);
 	ink(cr, LOOK_INK, 0.9);
-	cairo_stroke(cr);
-	cairo_set_dash(cr, NULL, 0, 0.0);
+	stroke_dashed(cr, dash, 4);
 }
 
 /* ---- beside a shape in the making ---- */
@@ -136,11 +132,9 @@ void draw_guides(const struct easel *easel)
 		struct v2 to = view_sheet_px(view, shaping->guide_mm[i][1]);
 		move_to(cr, from);
 		line_to(cr, to);
-		cairo_set_dash(cr, dash, 2, 0.0);
 		cairo_set_line_width(cr, 2.4 * u);
 		ink(cr, 0x0072b2, 1.0);
-		cairo_stroke(cr);
-		cairo_set_dash(cr, NULL, 0, 0.0);
+		stroke_dashed(cr, dash, 2);
 		disc(cr, (double)to.x, (double)to.y, 15.0 * u);
 		cairo_set_line_width(cr, 3.0 * u);
 		ink(cr, 0x0072b2, 1.0);

@@ -216,9 +216,7 @@ static void fold(cairo_t *cr)
 	cairo_fill(cr);
 	cairo_move_to(cr, 0.1, -0.95);
 	cairo_line_to(cr, 0.1, 0.95);
-	cairo_set_dash(cr, dash, 2, 0.0);
-	cairo_stroke(cr);
-	cairo_set_dash(cr, NULL, 0, 0.0);
+	stroke_dashed(cr, dash, 2);
 	cairo_move_to(cr, 0.36, -0.6);
 	cairo_line_to(cr, 0.96, -0.3);
 	cairo_line_to(cr, 0.8, 0.66);

@@ -48,11 +48,9 @@ static void draw_sewing(const struct easel *easel)
 	move_to(cr, ui->start_px);
 	line_to(cr, ui->steady_px);
 	cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
-	cairo_set_dash(cr, dash, 2, 0.0);
 	cairo_set_line_width(cr, 4.0 * u);
 	ink(cr, LOOK_INK, 1.0);
-	cairo_stroke(cr);
-	cairo_set_dash(cr, NULL, 0, 0.0);
+	stroke_dashed(cr, dash, 2);
 }
 
 /* The pen's ring: as large as what it would reach, in the colour of what it would do. */

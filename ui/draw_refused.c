@@ -28,11 +28,9 @@ static void draw_gap(const struct easel *easel, struct v2 a, struct v2 b)
 	move_to(cr, a);
 	line_to(cr, b);
 	cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
-	cairo_set_dash(cr, dots, 2, 0.0);
 	cairo_set_line_width(cr, 5.0 * u);
 	ink(cr, LOOK_WRAP, 1.0);
-	cairo_stroke(cr);
-	cairo_set_dash(cr, NULL, 0, 0.0);
+	stroke_dashed(cr, dots, 2);
 	ring(easel, a, 13.0 * u);
 	ring(easel, b, 13.0 * u);
 }
@@ -59,11 +57,9 @@ void draw_refused(const struct easel *easel)
 		line_to(cr, place_px(easel, refused->line_mm[i]));
 	cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
 	cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
-	cairo_set_dash(cr, dash, 2, 0.0);
 	cairo_set_line_width(cr, 3.4 * u);
 	ink(cr, LOOK_INK_GREY, 0.85);
-	cairo_stroke(cr);
-	cairo_set_dash(cr, NULL, 0, 0.0);
+	stroke_dashed(cr, dash, 2);
 	if (refused->fault == FAULT_CROSSES)
 		ring(easel, at, 24.0 * u);
 	else if (refused->fault == FAULT_OPEN)

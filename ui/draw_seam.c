@@ -146,11 +146,9 @@ static void draw_stitches(const struct easel *easel, struct edge_ref edge)
 	double u = easel->unit, dash[2] = {6.0 * u, 5.0 * u};
 	path_edge(easel, edge, 7.0 * u);
 	cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
-	cairo_set_dash(cr, dash, 2, 0.0);
 	cairo_set_line_width(cr, 2.0 * u);
 	ink(cr, 0xffffff, 0.72);
-	cairo_stroke(cr);
-	cairo_set_dash(cr, NULL, 0, 0.0);
+	stroke_dashed(cr, dash, 2);
 }
 
 /* A dotted thread that leaves both edges straight outwards. */
@@ -174,11 +172,9 @@ static void draw_thread(const struct easel *easel, const struct seam *seam)
 	cairo_curve_to(cr, (double)control[0].x, (double)control[0].y, (double)control[1].x,
 		       (double)control[1].y, (double)end[1].x, (double)end[1].y);
 	cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
-	cairo_set_dash(cr, dots, 2, 0.0);
 	cairo_set_line_width(cr, 3.0 * u);
 	ink(cr, 0x8c8375, 1.0);
-	cairo_stroke(cr);
-	cairo_set_dash(cr, NULL, 0, 0.0);
+	stroke_dashed(cr, dots, 2);
 }
 
 /* Under the pieces, so that a thread to the far side of another piece doesn't cross its cloth. */

@@ -117,6 +117,13 @@ void draw_phrase(cairo_t *cr, struct type *type, const struct phrase *phrase,
 	draw_text(cr, type, text, x, middle + 0.36 * label->japanese_px, &japanese);
 }
 
+void stroke_dashed(cairo_t *cr, const double *dash, int count)
+{
+	cairo_set_dash(cr, dash, count, 0.0);
+	cairo_stroke(cr);
+	cairo_set_dash(cr, NULL, 0, 0.0);
+}
+
 void round_box(cairo_t *cr, double x, double y, double w, double h, double radius)
 {
 	static const double quarter = 1.5707963267948966;
@@ -159,10 +166,8 @@ void draw_number(cairo_t *cr, struct type *type, int number, double x, double y,
 	if (!paired) { /* waits for its partner on the other side */
 		double dash[2] = {0.35 * radius_px, 0.35 * radius_px};
 		cairo_set_line_width(cr, 0.16 * radius_px);
-		cairo_set_dash(cr, dash, 2, 0.0);
 		disc(cr, x, y, radius_px * 1.45);
-		cairo_stroke(cr);
-		cairo_set_dash(cr, NULL, 0, 0.0);
+		stroke_dashed(cr, dash, 2);
 	}
 	draw_text(cr, type, text, x, y + 0.5 * radius_px, &style);
 }

@@ -63,6 +63,10 @@ static inline void disc(cairo_t *cr, double x, double y, double radius)
 	cairo_arc(cr, x, y, radius, 0.0, 6.283185307179586);
 }
 
+/* Strokes the path in dashes, so long on and off in turn, and leaves whole lines for what follows.
+ */
+void stroke_dashed(cairo_t *cr, const double *dash, int count);
+
 void round_box(cairo_t *cr, double x, double y, double w, double h, double radius);
 void round_rect(cairo_t *cr, struct rect rect, double radius);
 
