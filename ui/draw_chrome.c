@@ -1,7 +1,7 @@
 /* Bars, buttons, hint, swatches: one picture as large as the screen, of which only the items that
  * look different from the last frame are drawn again. */
 #include "draw_button.h"
-#include "draw_layer.h"
+#include "draw_painted.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,10 +9,7 @@
 enum { CLEAR_FRAMES = FRAME_RATE_HZ };
 
 struct chrome {
-	struct layer layer;
-	struct type *type;
-	cairo_surface_t *surface;
-	cairo_t *cr;
+	struct painted painted;
 	double unit;                /* pixels for a pixel at 1080 lines */
 	uint64_t whole;             /* what the layout looked like; 0: nothing drawn yet */
 	uint64_t drawn[ITEM_COUNT]; /* what each item looked like */
@@ -113,11 +110,8 @@ static struct rect item_rect(const struct layout *layout, int item)
 /* The bar's colour where a bar is, nothing where a pane is. */
 static void draw_ground(const struct chrome *chrome, const struct layout *layout)
 {
-	cairo_t *cr = chrome->cr;
-	cairo_set_operator(cr, CAIRO_OPERATOR_SOURCE);
-	cairo_set_source_rgba(cr, 0.0, 0.0, 0.0, 0.0);
-	cairo_paint(cr);
-	cairo_set_operator(cr, CAIRO_OPERATOR_OVER);
+	cairo_t *cr = chrome->painted.cr;
+	painted_clear(&chrome->painted);
 	cairo_rectangle(cr, layout->bar.x, layout->bar.y, layout->bar.w, layout->bar.h);
 	ink(cr, LOOK_NIGHT, 1.0);
 	cairo_fill(cr);
@@ -133,14 +127,15 @@ static void draw_ground(const struct chrome *chrome, const struct layout *layout
 static void draw_item(const struct chrome *chrome, const struct ui *ui, int item,
 		      const struct face *face)
 {
-	struct brush brush = {chrome->cr, chrome->type, ui->language, chrome->unit};
+	cairo_t *cr = chrome->painted.cr;
+	struct brush brush = {cr, chrome->painted.type, ui->language, chrome->unit};
 	struct rect rect = item_rect(&ui->layout, item);
-	cairo_save(chrome->cr);
-	cairo_rectangle(chrome->cr, rect.x, rect.y, rect.w, rect.h);
-	cairo_clip(chrome->cr);
+	cairo_save(cr);
+	cairo_rectangle(cr, rect.x, rect.y, rect.w, rect.h);
+	cairo_clip(cr);
 	draw_ground(chrome, &ui->layout);
 	draw_button(&brush, rect, face, item);
-	cairo_restore(chrome->cr);
+	cairo_restore(cr);
 }
 
 static void add_damage(struct layer *layer, struct rect rect)
@@ -194,7 +189,7 @@ static uint64_t layout_hash(const struct ui *ui)
 const struct layer *chrome_update(struct chrome *chrome, const struct ui *ui,
 				  const struct session *session)
 {
-	struct layer *layer = &chrome->layer;
+	struct layer *layer = &chrome->painted.layer;
 	uint64_t whole = layout_hash(ui);
 	bool all = whole != chrome->whole;
 	layer->damage_count = 0;
@@ -216,35 +211,24 @@ const struct layer *chrome_update(struct chrome *chrome, const struct ui *ui,
 		if (!all)
 			add_damage(layer, rect);
 	}
-	cairo_surface_flush(chrome->surface);
+	cairo_surface_flush(chrome->painted.surface);
 	return layer;
 }
 
 struct chrome *chrome_open(int width, int height, char fault[200])
 {
 	struct chrome *chrome = calloc(1, sizeof *chrome);
-	struct type *type = type_open(fault);
-	if (!chrome || !type) {
-		if (!chrome)
-			snprintf(fault, 200, "no memory for the bars");
-		type_close(type);
+	struct layout layout;
+	if (!chrome) {
+		snprintf(fault, 200, "no memory for the bars");
+		return NULL;
+	}
+	layout_make(&layout, width, height, STEP_DRAW, false);
+	chrome->unit = (double)layout_px(&layout, 1000) / 1000.0;
+	if (!painted_open(&chrome->painted, (struct rect){0, 0, width, height}, false, fault)) {
 		free(chrome);
 		return NULL;
 	}
-	struct layout layout;
-	layout_make(&layout, width, height, STEP_DRAW, false);
-	chrome->type = type;
-	chrome->unit = (double)layout_px(&layout, 1000) / 1000.0;
-	chrome->surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height);
-	chrome->cr = cairo_create(chrome->surface);
-	if (cairo_status(chrome->cr) != CAIRO_STATUS_SUCCESS) {
-		snprintf(fault, 200, "no memory for the bars (%d x %d)", width, height);
-		chrome_close(chrome);
-		return NULL;
-	}
-	chrome->layer.area = (struct rect){0, 0, width, height};
-	chrome->layer.pixels = cairo_image_surface_get_data(chrome->surface);
-	chrome->layer.stride = cairo_image_surface_get_stride(chrome->surface);
 	return chrome;
 }
 
@@ -252,8 +236,6 @@ void chrome_close(struct chrome *chrome)
 {
 	if (!chrome)
 		return;
-	cairo_destroy(chrome->cr);
-	cairo_surface_destroy(chrome->surface);
-	type_close(chrome->type);
+	painted_close(&chrome->painted);
 	free(chrome);
 }

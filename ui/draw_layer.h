@@ -1,8 +1,8 @@
 /* Where cairo's pictures meet GL: a layer is a picture in memory, drawn by cairo where it changed,
  * uploaded where it changed, and shown as a few rectangles. Helpers of draw.h; nobody else's.
  *
- *   sheet    the right pane: paper, grid, pieces, seams, marks, the stroke being drawn there.
- * Opaque. chrome   bars, buttons, hint, view buttons: whatever lies over both panes.
+ *   sheet    the right pane, opaque: paper, grid, pieces, seams, marks, the stroke being drawn
+ *   chrome   bars, buttons, hint, view buttons: whatever lies over both panes
  *
  * In the left pane all that moves with the camera (marks, their numbers, pins, hover ring, the
  * stroke being drawn) is drawn by GL and is no business of a layer.

@@ -1,7 +1,7 @@
 /* The operator's page in the visitors' own look: cards on paper, keys on the bar. */
 #include "draw_service.h"
 
-#include "draw_text.h"
+#include "draw_painted.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,10 +9,7 @@
 enum { TEXT_PX = 20, HEAD_PX = 25, LINE_PX = 31, PAD_PX = 20, KEY_COLUMN_PX = 150 };
 
 struct service_sheet {
-	struct layer layer;
-	struct type *type;
-	cairo_surface_t *surface;
-	cairo_t *cr;
+	struct painted painted;
 	int seen; /* page->changed as drawn; -1: nothing yet */
 };
 
@@ -350,42 +347,29 @@ static void draw_page(const struct painter *p)
 const struct layer *service_sheet_update(struct service_sheet *sheet,
 					 const struct service_page *page)
 {
-	struct painter painter = {sheet->cr, sheet->type, page, (double)page->unit};
-	sheet->layer.damage_count = 0;
+	struct painted *painted = &sheet->painted;
+	struct painter painter = {painted->cr, painted->type, page, (double)page->unit};
+	painted->layer.damage_count = 0;
 	if (sheet->seen != page->changed) {
 		draw_page(&painter);
-		cairo_surface_flush(sheet->surface);
-		sheet->layer.damage_count = 1;
-		sheet->layer.damage[0] = sheet->layer.area;
+		painted_damage(painted);
 	}
 	sheet->seen = page->changed;
-	return &sheet->layer;
+	return &painted->layer;
 }
 
 struct service_sheet *service_sheet_open(int width, int height, char fault[200])
 {
-	struct type *type = type_open(fault);
 	struct service_sheet *sheet = calloc(1, sizeof *sheet);
-	if (!type || !sheet) {
-		type_close(type);
+	if (!sheet) {
+		snprintf(fault, 200, "no memory for the service page");
+		return NULL;
+	}
+	sheet->seen = -1;
+	if (!painted_open(&sheet->painted, (struct rect){0, 0, width, height}, true, fault)) {
 		free(sheet);
 		return NULL;
 	}
-	sheet->type = type;
-	sheet->seen = -1;
-	sheet->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
-	sheet->cr = cairo_create(sheet->surface);
-	if (cairo_status(sheet->cr) != CAIRO_STATUS_SUCCESS) {
-		snprintf(fault, 200, "no memory for the service page");
-		service_sheet_close(sheet);
-		return NULL;
-	}
-	struct layer *layer = &sheet->layer;
-	layer->area = (struct rect){0, 0, width, height};
-	layer->pixels = cairo_image_surface_get_data(sheet->surface);
-	layer->stride = cairo_image_surface_get_stride(sheet->surface);
-	layer->patch_count = 1;
-	layer->patch[0] = (struct patch){layer->area, true};
 	return sheet;
 }
 
@@ -393,8 +377,6 @@ void service_sheet_close(struct service_sheet *sheet)
 {
 	if (!sheet)
 		return;
-	cairo_destroy(sheet->cr);
-	cairo_surface_destroy(sheet->surface);
-	type_close(sheet->type);
+	painted_close(&sheet->painted);
 	free(sheet);
 }
