@@ -1,5 +1,6 @@
 /* From runs to an outline: straight runs become lines that meet in corner points, the others Bezier
  * curves (least squares between fixed ends, after Schneider 1990). */
+#include "pattern_cubic.h"
 #include "pattern_private.h"
 
 #define CORNER_COSINE 0.82f         /* 35 degrees: a smaller turn is a smooth joint */
@@ -178,34 +179,17 @@ static bool is_corner(const struct stretch *before, const struct stretch *after,
 	return curves_meet_in_corner(&before->run, &after->run, trace);
 }
 
-/* Least-squares handles of a Bezier curve whose ends are the joints. */
+/* The joints are its ends. */
 static void fit_curve(struct stretch *stretch, struct v2 end, const struct trace *trace)
 {
 	const struct run *run = &stretch->run;
-	float aa = 0.0f, ab = 0.0f, bb = 0.0f;
-	struct v2 ra = {0}, rb = {0};
+	struct cubic_fit fit;
+	cubic_fit_begin(&fit, stretch->start, end);
 	for (int i = run->first; i <= run->last; i++) {
-		float u = trace_distance_mm(trace, run->first, i) / run->length_mm, v = 1.0f - u;
-		float a = 3.0f * u * v * v, b = 3.0f * u * u * v;
-		struct v2 rest = v2_sub(raw_at(trace, i), stretch->start);
-		float to_end = u * u * u + b;
-		rest = v2_sub(rest, v2_scale(v2_sub(end, stretch->start), to_end));
-		aa += a * a;
-		ab += a * b;
-		bb += b * b;
-		ra = v2_add(ra, v2_scale(rest, a));
-		rb = v2_add(rb, v2_scale(rest, b));
+		float along_mm = trace_distance_mm(trace, run->first, i);
+		cubic_fit_add(&fit, along_mm / run->length_mm, raw_at(trace, i));
 	}
-	float determinant = aa * bb - ab * ab;
-	struct v2 third = v2_scale(v2_sub(end, stretch->start), 1.0f / 3.0f);
-	stretch->handle[0] = third;
-	stretch->handle[1] = v2_scale(third, -1.0f);
-	if (!(determinant > 1e-3f * aa * bb))
-		return;
-	stretch->handle[0] = v2_scale(v2_sub(v2_scale(ra, bb), v2_scale(rb, ab)),
-				      1.0f / determinant);
-	stretch->handle[1] = v2_scale(v2_sub(v2_scale(rb, aa), v2_scale(ra, ab)),
-				      1.0f / determinant);
+	cubic_fit_end(&fit, stretch->handle);
 }
 
 /* At a smooth joint both handles lie on one line. */
@@ -229,13 +213,11 @@ static bool draw_stretch(struct piece *piece, const struct path *path, int k, fl
 	int steps = stretch->straight ? 1 : 3 + (int)(stretch->run.length_mm / step_mm);
 	if (piece->point_count + steps > OUTLINE_POINTS_MAX)
 		return false;
-	struct v2 a = stretch->start, b = v2_add(a, stretch->handle[0]);
-	struct v2 end = stretch_end(path, k), c = v2_add(end, stretch->handle[1]);
+	struct v2 end = stretch_end(path, k);
 	for (int i = 0; i < steps; i++) {
 		float u = (float)i / (float)steps;
-		struct v2 ab = v2_lerp(a, b, u), bc = v2_lerp(b, c, u), cd = v2_lerp(c, end, u);
-		piece->point_mm[piece->point_count] = v2_lerp(v2_lerp(ab, bc, u),
-							      v2_lerp(bc, cd, u), u);
+		piece->point_mm[piece->point_count] = cubic_at(stretch->start, end, stretch->handle,
+							       u);
 		piece->corner[piece->point_count] = i == 0 && stretch->corner;
 		piece->point_count++;
 	}

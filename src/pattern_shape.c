@@ -1,5 +1,7 @@
 #include "pattern_shape.h"
 
+#include "pattern_cubic.h"
+
 #define STEP_MM 8.0f          /* between points of a curve, */
 #define FLAT_MM 1.0f          /* a bow below this, */
 #define FLAT_SHARE 0.006f     /* or below this share of the chord, is none; */
@@ -230,49 +232,28 @@ const char *piece_split(struct piece *piece, int edge, float fraction)
 	return fits ? NULL : too_many;
 }
 
-/* Handles of the cubic that follows the points best between its given ends. */
-static void fit_handles(const struct inner *inner, struct v2 a, struct v2 b, struct v2 handle[2])
+/* The cubic between the given ends that follows the points best, in so many points. */
+static void smooth(struct inner *inner, int count, struct v2 a, struct v2 b)
 {
-	float length = 0.0f, along = 0.0f, pp = 0.0f, pq = 0.0f, qq = 0.0f;
-	struct v2 before = a, rp = {0.0f, 0.0f}, rq = {0.0f, 0.0f};
+	float length = 0.0f, along = 0.0f;
+	struct v2 before = a, handle[2];
+	struct cubic_fit fit;
 	for (int i = 0; i <= inner->count; i++) {
 		struct v2 at = i < inner->count ? inner->mm[i] : b;
 		length += v2_distance(before, at);
 		before = at;
 	}
 	before = a;
+	cubic_fit_begin(&fit, a, b);
 	for (int i = 0; i < inner->count; i++) {
 		along += v2_distance(before, inner->mm[i]);
 		before = inner->mm[i];
-		float u = along / float_max(length, 1e-3f), v = 1.0f - u;
-		float p = 3.0f * u * v * v, q = 3.0f * u * u * v;
-		struct v2 rest = v2_sub(before, v2_lerp(a, b, u * u * u + q));
-		pp += p * p;
-		pq += p * q;
-		qq += q * q;
-		rp = v2_add(rp, v2_scale(rest, p));
-		rq = v2_add(rq, v2_scale(rest, q));
+		cubic_fit_add(&fit, along / float_max(length, 1e-3f), before);
 	}
-	float determinant = pp * qq - pq * pq;
-	struct v2 third = v2_scale(v2_sub(b, a), 1.0f / 3.0f);
-	handle[0] = third;
-	handle[1] = v2_scale(third, -1.0f);
-	if (!(determinant > 1e-3f * pp * qq))
-		return;
-	handle[0] = v2_scale(v2_sub(v2_scale(rp, qq), v2_scale(rq, pq)), 1.0f / determinant);
-	handle[1] = v2_scale(v2_sub(v2_scale(rq, pp), v2_scale(rp, pq)), 1.0f / determinant);
-}
-
-static void draw_cubic(struct inner *inner, int count, struct v2 a, struct v2 b,
-		       const struct v2 handle[2])
-{
-	struct v2 c = v2_add(a, handle[0]), d = v2_add(b, handle[1]);
+	cubic_fit_end(&fit, handle);
 	inner->count = count;
-	for (int i = 0; i < count; i++) {
-		float u = (float)(i + 1) / (float)(count + 1);
-		struct v2 ac = v2_lerp(a, c, u), cd = v2_lerp(c, d, u), db = v2_lerp(d, b, u);
-		inner->mm[i] = v2_lerp(v2_lerp(ac, cd, u), v2_lerp(cd, db, u), u);
-	}
+	for (int i = 0; i < count; i++)
+		inner->mm[i] = cubic_at(a, b, handle, (float)(i + 1) / (float)(count + 1));
 }
 
 const char *piece_join(struct piece *piece, int corner)
@@ -285,7 +266,7 @@ const char *piece_join(struct piece *piece, int corner)
 	take_inner(piece, corner, &after);
 	bool straight = inner.count == 0 && after.count == 0;
 	struct v2 a = piece_corner_mm(piece, before);
-	struct v2 b = piece_corner_mm(piece, edge_after(piece, corner)), handle[2];
+	struct v2 b = piece_corner_mm(piece, edge_after(piece, corner));
 	inner.mm[inner.count++] = piece->point_mm[at];
 	for (int i = 0; i < after.count; i++)
 		inner.mm[inner.count++] = after.mm[i];
@@ -294,8 +275,7 @@ const char *piece_join(struct piece *piece, int corner)
 	/* Edges are counted from the first corner in the list: corner 0's place is taken by 1. */
 	float length = piece_edge_length_mm(piece, joined);
 	sample_edge(piece, joined, curve_points(length), &inner);
-	fit_handles(&inner, a, b, handle);
-	draw_cubic(&inner, curve_points(length), a, b, handle);
+	smooth(&inner, curve_points(length), a, b);
 	if (straight || flat(&inner, a, b, FLAT_SHARE))
 		inner.count = 0;
 	return put_inner(piece, joined, &inner);
