@@ -45,15 +45,21 @@ static void add(struct mean *mean, struct mean more)
 	mean->area_m2 += more.area_m2;
 }
 
+/* The share of the map along a direction. */
+static float along(const struct mean *mean, struct v2 e)
+{
+	return e.x * e.x * mean->xx + 2.0f * e.x * e.y * mean->xy + e.y * e.y * mean->yy;
+}
+
 /* The larger principal value of the mean, and its direction. */
-static float principal(const struct mean *mean, struct v2 *along)
+static float principal(const struct mean *mean, struct v2 *direction)
 {
 	float middle = 0.5f * (mean->xx + mean->yy), half = 0.5f * (mean->xx - mean->yy);
 	float root = sqrtf(half * half + mean->xy * mean->xy);
 	struct v2 way = half > 0.0f ? (struct v2){half + root, mean->xy}
 				    : (struct v2){mean->xy, root - half};
 	float length = v2_length(way);
-	*along = length > 0.0f ? v2_scale(way, 1.0f / length) : (struct v2){1.0f, 0.0f};
+	*direction = length > 0.0f ? v2_scale(way, 1.0f / length) : (struct v2){1.0f, 0.0f};
 	return (middle + root) / float_max(mean->area_m2, 1e-10f);
 }
 
@@ -102,11 +108,9 @@ static void widen(const struct cloth *cloth, int piece, struct widening *wide)
 		if (garment->piece[v[0]] != piece || !triangle_placed(cloth, t))
 			continue;
 		struct mean mean = stretched(cloth, t);
-		struct v2 e = wide->across,
-			  sides = v2_add(garment->rest_m[v[0]],
+		struct v2 sides = v2_add(garment->rest_m[v[0]],
 					 v2_add(garment->rest_m[v[1]], garment->rest_m[v[2]]));
-		float more = e.x * e.x * mean.xx + 2.0f * e.x * e.y * mean.xy + e.y * e.y * mean.yy;
-		float share;
+		float share, more = along(&mean, wide->across);
 		int i = knot_at(wide, v2_scale(sides, 1.0f / 3.0f), &share);
 		sum[i] += (1.0f - share) * mean.area_m2 * more;
 		area[i] += (1.0f - share) * mean.area_m2;
@@ -145,8 +149,7 @@ static float spread_stretch(const struct cloth *cloth, int piece, struct v2 e)
 		if (cloth->garment->triangle_piece[t] != piece || !triangle_placed(cloth, t))
 			continue;
 		struct mean mean = stretched(cloth, t);
-		float more = e.x * e.x * mean.xx + 2.0f * e.x * e.y * mean.xy + e.y * e.y * mean.yy;
-		sum += mean.area_m2 * float_clamp(more, -caught, caught);
+		sum += mean.area_m2 * float_clamp(along(&mean, e), -caught, caught);
 		area_m2 += mean.area_m2;
 	}
 	return sum / float_max(area_m2, 1e-10f);
