@@ -1,6 +1,7 @@
 /* Which triangles of a cloth lie near one another: a hashed grid of their centres, filled by
  * counting sort, so that its order is that of the triangles. */
 #include "cloth_self_private.h"
+#include "forest.h"
 
 static const float radius_edges =
 	0.8f;                          /* larger triangles, in edge lengths, are seen only so far */
@@ -44,33 +45,23 @@ static void pair_edges(struct cloth *cloth, int *first, int *edge)
 	}
 }
 
-static int root_of(int *root, int v)
-{
-	while (root[v] != v)
-		v = root[v] = root[root[v]];
-	return v;
-}
-
 /* Sizes of what hangs together over edges that `cut` (per triangle, a bit an edge; NULL: none) does
  * not bar, per particle. */
 static void measure_patches(struct cloth *cloth, const uint8_t *cut, int *size)
 {
 	int *root = cloth->self->root, vertices = cloth->garment->vertex_count;
-	for (int v = 0; v < vertices; v++)
-		root[v] = v;
+	forest_begin(root, vertices);
 	for (int e = 0; e < 3 * cloth->garment->triangle_count; e++) {
 		const int *v = cloth->triangle[e / 3].v;
-		if (cut && (cut[e / 3] >> e % 3 & 1))
-			continue;
-		int a = root_of(root, v[e % 3]), b = root_of(root, v[(e % 3 + 1) % 3]);
-		root[int_max(a, b)] = int_min(a, b);
+		if (!cut || !(cut[e / 3] >> e % 3 & 1))
+			forest_join(root, v[e % 3], v[(e % 3 + 1) % 3]);
 	}
 	memset(size, 0, (size_t)vertices * sizeof *size);
 	for (int v = 0; v < vertices; v++)
 		if (cloth->particle[v] == v)
-			size[root_of(root, v)]++;
+			size[forest_root(root, v)]++;
 	for (int v = 0; v < vertices; v++)
-		size[v] = size[root_of(root, v)];
+		size[v] = size[forest_root(root, v)];
 }
 
 void self_connect(struct cloth *cloth)

@@ -8,26 +8,14 @@
  * already. After Baraff, Witkin and Kass, "Untangling Cloth" (SIGGRAPH 2003), which floods whole
  * sheets, and so cannot judge where a curve ends at a rim. */
 #include "cloth_self_private.h"
+#include "forest.h"
 
 enum { CLEAR_MAJORITY = 3 }; /* two of three voters: a third of them more for than against */
-
-static int root_of(int *root, int v)
-{
-	while (root[v] != v)
-		v = root[v] = root[root[v]];
-	return v;
-}
-
-static void join(int *root, int v, int w)
-{
-	int a = root_of(root, v), b = root_of(root, w);
-	root[int_max(a, b)] = int_min(a, b);
-}
 
 static void join_triangle(struct cloth_self *self, int v, const int corner[3])
 {
 	for (int k = 0; k < 3; k++) {
-		join(self->root, v, corner[k]);
+		forest_join(self->root, v, corner[k]);
 		self->crossed[corner[k]] = 1;
 	}
 	self->crossed[v] = 1;
@@ -38,10 +26,8 @@ static void find_zones(struct cloth *cloth)
 {
 	struct cloth_self *self = cloth->self;
 	int vertices = cloth->garment->vertex_count;
-	for (int v = 0; v < vertices; v++) {
-		self->root[v] = v;
-		self->crossed[v] = 0;
-	}
+	forest_begin(self->root, vertices);
+	memset(self->crossed, 0, (size_t)vertices * sizeof *self->crossed);
 	for (int v = 0; v < vertices; v++)
 		for (int i = 0; i < self->pair_count[v]; i++)
 			join_triangle(self, v, cloth->triangle[self_pair(self, v, i) / 4].v);
@@ -56,7 +42,7 @@ static void find_zones(struct cloth *cloth)
 	for (int e = 0; e < 3 * cloth->garment->triangle_count; e++) {
 		const int *v = cloth->triangle[e / 3].v;
 		if (self->crossed[v[e % 3]] && self->crossed[v[(e % 3 + 1) % 3]])
-			join(self->root, v[e % 3], v[(e % 3 + 1) % 3]);
+			forest_join(self->root, v[e % 3], v[(e % 3 + 1) % 3]);
 	}
 }
 
@@ -69,11 +55,11 @@ static void keep_crossed_zones(struct cloth *cloth)
 		if (!self->crossing[i].through)
 			continue;
 		const int *v = cloth->triangle[self->crossing[i].edge / 3].v;
-		self->crossed[root_of(self->root, v[self->crossing[i].edge % 3])] = 2;
+		self->crossed[forest_root(self->root, v[self->crossing[i].edge % 3])] = 2;
 	}
 	for (int v = 0; v < vertices; v++)
 		if (self->crossed[v] == 1)
-			self->crossed[v] = self->crossed[root_of(self->root, v)] == 2 ? 1 : 0;
+			self->crossed[v] = self->crossed[forest_root(self->root, v)] == 2 ? 1 : 0;
 }
 
 /* What a pair votes about: whether its sheets face alike, and what being in front counts there. 0:
@@ -97,7 +83,7 @@ static int ballot(const struct cloth *cloth, int v, int t, struct v3 normal, boo
 static void vote(struct cloth *cloth, int v, int pair)
 {
 	struct cloth_self *self = cloth->self;
-	int t = pair / 4, root = root_of(self->root, v);
+	int t = pair / 4, root = forest_root(self->root, v);
 	struct over over;
 	bool alike;
 	if (!self_look_over(cloth, cloth->position_m[v], t, &over))
@@ -114,7 +100,7 @@ static void vote(struct cloth *cloth, int v, int pair)
 static int decide(struct cloth *cloth, int v, int pair)
 {
 	struct cloth_self *self = cloth->self;
-	int t = pair / 4, root = root_of(self->root, v);
+	int t = pair / 4, root = forest_root(self->root, v);
 	struct over over;
 	bool alike;
 	if (!self_look_over(cloth, cloth->position_m[v], t, &over))

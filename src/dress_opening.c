@@ -3,6 +3,7 @@
  * them. So the limbs of the slim body point where the tubes do while it is laid and sewn, and take
  * them along when they turn back. */
 #include "dress_private.h"
+#include "forest.h"
 
 /* From a limb's joint to its opening, of the limb's length: out (an arm's) or down (a leg's) at
  * least, and at most. */
@@ -12,13 +13,6 @@ static const float beside_least =
 	0.5f; /* of a hip joint's way from the middle: not a skirt's hem */
 
 /* ---- openings: rims of the garment as it is sewn ---- */
-
-static int root_of(const int *parent, int v)
-{
-	while (parent[v] != v)
-		v = parent[v];
-	return v;
-}
 
 /* Has this edge of a triangle, low-high once sewn, no triangle beyond it? */
 static bool is_rim(const struct wrap *wrap, int low, int high)
@@ -48,13 +42,13 @@ static void find_rims(struct wrap *wrap)
 		int a = garment->weld[v[k]], b = garment->weld[v[(k + 1) % 3]];
 		if (!is_rim(wrap, int_min(a, b), int_max(a, b)))
 			continue;
-		rim[a] = rim[a] < 0 ? a : root_of(rim, a);
-		rim[b] = rim[b] < 0 ? b : root_of(rim, b);
+		rim[a] = rim[a] < 0 ? a : forest_root(rim, a);
+		rim[b] = rim[b] < 0 ? b : forest_root(rim, b);
 		rim[rim[b]] = rim[a];
 	}
 	for (int v = 0; v < garment->vertex_count; v++)
 		if (rim[garment->weld[v]] >= 0)
-			rim[v] = root_of(rim, garment->weld[v]);
+			rim[v] = forest_root(rim, garment->weld[v]);
 }
 
 /* ---- where flat cloth stands ---- */
