@@ -93,44 +93,6 @@ LANES_INLINE void place_store(struct place *x, uint32_t at, four a)
 	*(struct place *)((char *)x + at) = a;
 }
 
-LANES_INLINE row row_of(float a, float b)
-{
-	(void)b;
-	return (row){a, a, a, a};
-}
-
-LANES_INLINE row row_load(const struct place *x, uint32_t a, uint32_t b)
-{
-	(void)b;
-	return place_load(x, a);
-}
-
-LANES_INLINE void row_store(struct place *x, uint32_t a, uint32_t b, row r)
-{
-	(void)b;
-	place_store(x, a, r);
-}
-
-LANES_INLINE void rows_splat(row rows[4], const float *a, const float *b)
-{
-	UNROLL for (int c = 0; c < 4; c++) rows[c] = row_of(a[c], b[c]);
-}
-
-LANES_INLINE void rows_load(row rows[ROWS], const struct place *x, const uint32_t *at)
-{
-	rows[0] = place_load(x, at[0]);
-}
-
-LANES_INLINE void rows_store(const row rows[ROWS], struct place *x, const uint32_t *at)
-{
-	place_store(x, at[0], rows[0]);
-}
-
-LANES_INLINE row row_along(float x, float y, float z)
-{
-	return (row){x, y, z, 0.0f};
-}
-
 LANES_INLINE row row_cut(row r)
 {
 	return (row){r.x, r.y, r.z, 0.0f};
@@ -294,7 +256,9 @@ LANES_INLINE unsigned lanes_below(lanes a, lanes b)
 #endif
 }
 
-#if LANES == 4
+#endif
+
+#if LANES < 8 /* a row is one place */
 
 LANES_INLINE row row_of(float a, float b)
 {
@@ -314,11 +278,33 @@ LANES_INLINE void row_store(struct place *x, uint32_t a, uint32_t b, row r)
 	place_store(x, a, r);
 }
 
-#define SPLAT(r, c) __builtin_shufflevector(r, r, c, c, c, c)
 LANES_INLINE row row_along(float x, float y, float z)
 {
 	return (row){x, y, z, 0.0f};
 }
+
+LANES_INLINE void rows_load(row rows[ROWS], const struct place *x, const uint32_t *at)
+{
+	UNROLL for (int i = 0; i < ROWS; i++) rows[i] = place_load(x, at[i]);
+}
+
+LANES_INLINE void rows_store(const row rows[ROWS], struct place *x, const uint32_t *at)
+{
+	UNROLL for (int i = 0; i < ROWS; i++) place_store(x, at[i], rows[i]);
+}
+
+#endif
+
+#if LANES == 1
+
+LANES_INLINE void rows_splat(row rows[4], const float *a, const float *b)
+{
+	UNROLL for (int c = 0; c < 4; c++) rows[c] = row_of(a[c], b[c]);
+}
+
+#elif LANES == 4
+
+#define SPLAT(r, c) __builtin_shufflevector(r, r, c, c, c, c)
 
 LANES_INLINE row row_cut(row r)
 {
@@ -334,16 +320,6 @@ LANES_INLINE void vertices_load(row rows[ROWS], const struct v3 *from)
 LANES_INLINE void quiet_load(row rows[ROWS], const struct quiet *from)
 {
 	UNROLL for (int i = 0; i < ROWS; i++) rows[i] = *(const loose *)(from + i);
-}
-
-LANES_INLINE void rows_load(row rows[ROWS], const struct place *x, const uint32_t *at)
-{
-	UNROLL for (int i = 0; i < ROWS; i++) rows[i] = place_load(x, at[i]);
-}
-
-LANES_INLINE void rows_store(const row rows[ROWS], struct place *x, const uint32_t *at)
-{
-	UNROLL for (int i = 0; i < ROWS; i++) place_store(x, at[i], rows[i]);
 }
 
 #define LOW_PAIRS(a, b) __builtin_shufflevector(a, b, 0, 4, 1, 5)
@@ -415,6 +391,8 @@ LANES_INLINE void rows_store(const row rows[ROWS], struct place *x, const uint32
 	__builtin_shufflevector(xy, z, i, i + 1, k + 8, k + 8, i + 4, i + 5, k + 12, k + 12)
 
 #endif
+
+#if LANES > 1
 
 LANES_INLINE void rows_splat(row rows[4], const float *a, const float *b)
 {
