@@ -228,14 +228,24 @@ static void frame(void)
 		cloth_sweep(&cloth);
 }
 
-static void test_opens(const struct fold_case *c, struct cloth_settings settings)
+/* Lies without a fold what lay so in the case before? */
+static bool same_flat(const struct fold_case *c)
+{
+	return c > cases && c->post_m == c[-1].post_m && c->around_m == c[-1].around_m &&
+	       c->high_m == c[-1].high_m && c->vertices == c[-1].vertices;
+}
+
+/* *stretch: of the same cloth without a fold, as far as it is known from the case before. */
+static void test_opens(const struct fold_case *c, struct cloth_settings settings, float *stretch)
 {
 	int frames = 0, through = 0, failures = test_failures;
-	dress(c, flat);
-	cloth.settings = settings;
-	for (int i = 0; i < SETTLE; i++)
-		frame();
-	float stretch = stretch_max();
+	if (*stretch == 0.0f || !same_flat(c)) {
+		dress(c, flat);
+		cloth.settings = settings;
+		for (int i = 0; i < SETTLE; i++)
+			frame();
+		*stretch = stretch_max();
+	}
 	dress(c, c->fold);
 	cloth.settings = settings;
 	int first = facing_in();
@@ -251,13 +261,13 @@ static void test_opens(const struct fold_case *c, struct cloth_settings settings
 	CHECK(frames < c->frames);
 	CHECK(facing_in() == 0);
 	CHECK(edges_through() == 0);
-	CHECK(stretch_max() < stretch + 0.03f);
+	CHECK(stretch_max() < *stretch + 0.03f);
 	measure_garment(&measure, &cloth, scratch);
 	CHECK(measure.self_intersections == 0);
 	if (test_failures > failures)
 		fprintf(stderr, "%s: %d of %d face in after %d frames; stretch %.3f, flat %.3f\n",
 			c->name, facing_in(), first, frames, (double)stretch_max(),
-			(double)stretch);
+			(double)*stretch);
 }
 
 /* A crease that is wanted stays. */
@@ -276,6 +286,7 @@ int main(void)
 {
 	static unsigned char memory[192u << 20];
 	struct arena arena;
+	float worn = 0.0f, relaxed = 0.0f;
 	arena_init(&arena, memory, sizeof memory);
 	body_init(&body, &arena);
 	garment_init(&garment, &arena);
@@ -284,8 +295,8 @@ int main(void)
 	scratch = measure_init(&arena);
 	for (int c = 0; c < COUNT_OF(cases); c++) {
 		if (!cases[c].relaxed)
-			test_opens(&cases[c], cloth_settings_worn());
-		test_opens(&cases[c], cloth_settings_relax());
+			test_opens(&cases[c], cloth_settings_worn(), &worn);
+		test_opens(&cases[c], cloth_settings_relax(), &relaxed);
 	}
 	test_crease_stays();
 	return test_end();
