@@ -317,10 +317,9 @@ int main(void)
 	CHECK(!body_build_mannequin(&session.body));
 	CHECK(body_find_parts(&session.body));
 	test_tshirt();
+	test_move();
 	test_tshirt_low();
 	test_holds();
-	test_tshirt();
-	test_move();
 	test_unsteady_hands();
 	test_any_quota();
 	test_contradiction();
