@@ -1,5 +1,5 @@
 #!/bin/sh
-# Runs every fuzzer for a while: tests/check-fuzz.sh BUILD SECONDS
+# Runs every fuzzer for a while: tests/check-fuzz.sh BUILD SECONDS [FUZZER]
 # What it finds new is kept in BUILD/corpus; a crashing input is named and kept beside it.
 build=$1 seconds=$2
 
@@ -13,9 +13,8 @@ seeds() {
   esac
 }
 
-status=0
-for fuzzer in "$build"/tests/fuzz_*; do
-  [ -x "$fuzzer" ] && [ ! -d "$fuzzer" ] || continue
+one() {
+  fuzzer=$1
   name=$(basename "$fuzzer")
   corpus=$build/corpus/$name
   mkdir -p "$corpus"
@@ -29,7 +28,15 @@ for fuzzer in "$build"/tests/fuzz_*; do
   else
     tail -n 40 "$corpus.log"
     echo "failed $name: the input is $(sed -n 's/.*Test unit written to //p' "$corpus.log")"
-    status=1
+    exit 1
   fi
-done
-exit $status
+}
+
+if [ $# = 3 ]; then
+  one "$3"
+  exit
+fi
+# One a processor at a time; xargs fails when one did.
+for fuzzer in "$build"/tests/fuzz_*; do
+  [ ! -x "$fuzzer" ] || [ -d "$fuzzer" ] || echo "$fuzzer"
+done | xargs -r -n 1 -P "$(nproc)" "$0" "$build" "$seconds"
