@@ -121,9 +121,15 @@ STATIC = $(if $(findstring sanitize,$(FLAGS)),,-static)
 $(B)/tests/replay_hash: $(call objects,tests/replay_hash.c $(PURE))
 	$(call SHORT,link)$(CC) $(FLAGS) $^ $(LDFLAGS) $(STATIC) -lm -lpthread -o $@
 
+# Who made a folder's objects, and how: they are made anew by another compiler or with other flags.
+MADE_BY = $(shell LC_ALL=C $(CC) -v 2>&1 | grep -E '^Target| version [0-9]') $(filter-out -Werror,$(FLAGS))
+$(B)/made-by: FORCE
+	@mkdir -p $(@D)
+	@echo '$(MADE_BY)' | cmp -s - $@ || echo '$(MADE_BY)' >$@
+
 # The pure part is compiled without a single package on its include path.
 $(call objects,$(PURE) tests/replay_hash.c): PACKAGE_CFLAGS :=
-$(B)/%.o: %.c Makefile
+$(B)/%.o: %.c Makefile $(B)/made-by
 	@mkdir -p $(@D)
 	$(call SHORT,cc,$<)$(CC) $(INC_$(firstword $(subst /, ,$<))) $(FLAGS) $(PACKAGE_CFLAGS) -c $< -o $@
 
@@ -216,6 +222,6 @@ clean:
 	rm -rf $(build)
 
 .PHONY: all run check tests programs check-layers check-imports bench bench-peers peers fuzz fuzzers hash-matrix tremor \
-        matrix check-kernel tapes examples format format-check help clean
+        matrix check-kernel tapes examples format format-check help clean FORCE
 .SECONDARY:
 -include $(patsubst %.c,$(B)/%.d,$(ALL)) $(PEER_OBJECTS:.o=.d)
