@@ -193,7 +193,7 @@ fuzz:
 fuzzers: $(FUZZ)
 
 hash-matrix:
-	@MAKE='$(MAKE)' tests/check-hash.sh $(build)/hash
+	@MAKE='$(MAKE)' tests/check-hash.sh $(build)
 
 tremor: $(B)/kitsuke
 	@KITSUKE=$(B)/kitsuke tests/check-tremor.sh
