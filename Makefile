@@ -46,7 +46,7 @@ CFLAGS_common   := -std=c17 -D_GNU_SOURCE -g -MMD -MP -ffp-contract=off -fno-mat
                    $(if $(werror),-Werror)
 CFLAGS_debug    := -O0
 CFLAGS_release  := -O2
-CFLAGS_sanitize := -O1 -fsanitize=address,undefined -fno-sanitize-recover=all
+CFLAGS_sanitize := -O2 -fsanitize=address,undefined -fno-sanitize-recover=all
 CFLAGS_thread   := -O1 -fsanitize=thread
 CFLAGS_coverage := -O0 --coverage
 CFLAGS_fuzz     := -O1 -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all
