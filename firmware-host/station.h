@@ -85,6 +85,9 @@ void station_read_settings(struct station *station);
 bool station_wants_desk(struct station *station);
 void station_open_desk(struct station *station);
 
+/* Writes down on the page what there is to be said now. */
+void station_show_page(struct station *station);
+
 /* A frame of the page. True: a visit must begin anew. */
 bool station_run_desk(struct station *station, unsigned unplugged);
 
