@@ -159,6 +159,14 @@ float piece_nearest_edge(const struct piece *piece, struct v2 local_mm, int *edg
 	return best_mm;
 }
 
+int pattern_free_piece(const struct pattern *pattern)
+{
+	for (int p = 0; p < PIECES_MAX; p++)
+		if (!pattern->piece[p].used)
+			return p;
+	return -1;
+}
+
 int pattern_pick(const struct pattern *pattern, struct v2 sheet_mm, uint32_t skip)
 {
 	int best = -1;

@@ -71,6 +71,9 @@ float piece_nearest_edge(const struct piece *piece, struct v2 local_mm, int *edg
  * counter-clockwise, no self-crossing. */
 const char *piece_fault(const struct piece *piece);
 
+/* An index that no piece has; -1: the pattern is full. */
+int pattern_free_piece(const struct pattern *pattern);
+
 /* The uppermost piece (layer) under a sheet point, or -1. `skip` is a bit set of pieces to pass. */
 int pattern_pick(const struct pattern *pattern, struct v2 sheet_mm, uint32_t skip);
 

@@ -45,7 +45,7 @@ static const char *mark_cloth(struct session *session, const struct edit *edit)
 	if (!number_is_sane(number))
 		return "marks are numbered from 1 to 99";
 	if (piece < 0 || piece >= PIECES_MAX || !session->document.pattern.piece[piece].used)
-		return "there is no such piece";
+		return session_no_piece;
 	if (edit->point_count < 2)
 		return "a mark is a line of at least two points";
 	int place = mark_place(&session->document.marks, 0, number);

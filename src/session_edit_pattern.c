@@ -7,15 +7,7 @@ static bool piece_exists(const struct session *session, int piece)
 	return piece >= 0 && piece < PIECES_MAX && session->document.pattern.piece[piece].used;
 }
 
-static const char no_piece[] = "there is no such piece";
-
-static int free_piece(const struct session *session)
-{
-	for (int i = 0; i < PIECES_MAX; i++)
-		if (!session->document.pattern.piece[i].used)
-			return i;
-	return -1;
-}
+const char session_no_piece[] = "there is no such piece";
 
 static int top_layer(const struct pattern *pattern)
 {
@@ -26,7 +18,7 @@ static int top_layer(const struct pattern *pattern)
 	return top;
 }
 
-static void take_outline(struct piece *piece, const struct edit *edit)
+void session_take_outline(struct piece *piece, const struct edit *edit)
 {
 	piece->point_count = edit->point_count;
 	for (int i = 0; i < edit->point_count; i++) {
@@ -35,7 +27,7 @@ static void take_outline(struct piece *piece, const struct edit *edit)
 	}
 }
 
-static bool place_is_sane(float x_mm, float y_mm, float turn_rad)
+bool session_is_place(float x_mm, float y_mm, float turn_rad)
 {
 	return float_abs(x_mm) <= 20000.0f && float_abs(y_mm) <= 20000.0f &&
 	       float_abs(turn_rad) <= 100.0f;
@@ -44,7 +36,7 @@ static bool place_is_sane(float x_mm, float y_mm, float turn_rad)
 static const char *add_piece(struct session *session, const struct edit *edit)
 {
 	struct pattern *pattern = &session->document.pattern;
-	int at = free_piece(session);
+	int at = pattern_free_piece(&session->document.pattern);
 	if (at < 0)
 		return "the pattern is full; delete a piece first";
 	struct piece piece;
@@ -56,8 +48,8 @@ static const char *add_piece(struct session *session, const struct edit *edit)
 	piece.position_mm = (struct v2){edit->f[0], edit->f[1]};
 	piece.turn_rad = edit->f[2];
 	piece.layer = top_layer(pattern) + 1;
-	take_outline(&piece, edit);
-	if (!place_is_sane(edit->f[0], edit->f[1], edit->f[2]))
+	session_take_outline(&piece, edit);
+	if (!session_is_place(edit->f[0], edit->f[1], edit->f[2]))
 		return "the piece lies too far away";
 	const char *fault = piece_fault(&piece);
 	if (fault)
@@ -81,8 +73,8 @@ static const char *change_shape(struct session *session, const struct edit *edit
 static const char *place_piece(struct session *session, const struct edit *edit)
 {
 	if (!piece_exists(session, edit->i[0]))
-		return no_piece;
-	if (!place_is_sane(edit->f[0], edit->f[1], edit->f[2]))
+		return session_no_piece;
+	if (!session_is_place(edit->f[0], edit->f[1], edit->f[2]))
 		return "the piece would lie too far away";
 	undo_keep(session);
 	struct pattern *pattern = &session->document.pattern;
@@ -97,14 +89,14 @@ static const char *place_piece(struct session *session, const struct edit *edit)
 static const char *copy_piece(struct session *session, const struct edit *edit)
 {
 	if (!piece_exists(session, edit->i[0]))
-		return no_piece;
-	int at = free_piece(session);
+		return session_no_piece;
+	int at = pattern_free_piece(&session->document.pattern);
 	if (at < 0)
 		return "the pattern is full; delete a piece first";
 	struct pattern *pattern = &session->document.pattern;
 	struct v2 place = v2_add(pattern->piece[edit->i[0]].position_mm,
 				 (struct v2){edit->f[0], edit->f[1]});
-	if (!place_is_sane(place.x, place.y, 0.0f))
+	if (!session_is_place(place.x, place.y, 0.0f))
 		return "the copy would lie too far away";
 	undo_keep(session);
 	pattern->piece[at] = pattern->piece[edit->i[0]];
@@ -119,7 +111,7 @@ static const char *mirror_piece(struct session *session, const struct edit *edit
 {
 	int at = edit->i[0];
 	if (!piece_exists(session, at))
-		return no_piece;
+		return session_no_piece;
 	undo_keep(session);
 	struct pattern *pattern = &session->document.pattern;
 	struct piece *piece = &pattern->piece[at];
@@ -156,7 +148,7 @@ static const char *delete_piece(struct session *session, const struct edit *edit
 {
 	int at = edit->i[0];
 	if (!piece_exists(session, at))
-		return no_piece;
+		return session_no_piece;
 	undo_keep(session);
 	struct document *document = &session->document;
 	document->pattern.piece[at].used = false;
@@ -174,7 +166,7 @@ static const char *delete_piece(struct session *session, const struct edit *edit
 static const char *colour_piece(struct session *session, const struct edit *edit)
 {
 	if (!piece_exists(session, edit->i[0]))
-		return no_piece;
+		return session_no_piece;
 	undo_keep(session);
 	session->document.pattern.piece[edit->i[0]].swatch = edit->i[1] & 7;
 	return NULL;
@@ -231,7 +223,7 @@ static const char *unsew(struct session *session, const struct edit *edit)
 static const char *set_layer(struct session *session, const struct edit *edit)
 {
 	if (!piece_exists(session, edit->i[0]))
-		return no_piece;
+		return session_no_piece;
 	if (edit->i[1] < 0 || edit->i[1] > 9)
 		return "garments are worn in layers 0 to 9";
 	undo_keep(session);

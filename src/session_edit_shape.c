@@ -4,8 +4,6 @@
 #include "pattern_shape.h"
 #include "session_private.h"
 
-static const char no_piece[] = "there is no such piece";
-
 static struct piece *piece_at(struct document *document, int piece)
 {
 	return &document->pattern.piece[piece];
@@ -100,11 +98,7 @@ static const char *outline(struct document *document, const struct edit *edit)
 {
 	struct piece *piece = piece_at(document, edit->i[0]);
 	struct piece old = *piece;
-	piece->point_count = edit->point_count;
-	for (int i = 0; i < edit->point_count; i++) {
-		piece->point_mm[i] = (struct v2){edit->point[i].x, edit->point[i].y};
-		piece->corner[i] = edit->corner[i];
-	}
+	session_take_outline(piece, edit);
 	const char *fault = piece_fault(piece);
 	if (!fault && piece->symmetric)
 		fault = piece_fold(piece, changed_side(piece, &old));
@@ -120,8 +114,7 @@ static const char *fold(struct document *document, const struct edit *edit)
 	piece->symmetric = false;
 	if (edit->i[1] == 0)
 		return NULL;
-	if (!(float_abs(edit->f[0]) <= 20000.0f && float_abs(edit->f[1]) <= 20000.0f &&
-	      float_abs(edit->f[2]) <= 100.0f))
+	if (!session_is_place(edit->f[0], edit->f[1], edit->f[2]))
 		return "the axis does not meet the piece";
 	piece->axis_mm = (struct v2){edit->f[0], edit->f[1]};
 	piece->axis_rad = edit->f[2];
@@ -148,11 +141,11 @@ static const char *check_shape(const struct document *document, const struct edi
 		       edit->kind == EDIT_SPLIT || edit->kind == EDIT_JOIN;
 	bool placed = edit->kind == EDIT_POINT || edit->kind == EDIT_BEND;
 	if (piece < 0 || piece >= PIECES_MAX || !document->pattern.piece[piece].used)
-		return no_piece;
+		return session_no_piece;
 	if (counted &&
 	    (edit->i[1] < 0 || edit->i[1] >= piece_edge_count(&document->pattern.piece[piece])))
 		return "the piece has no such edge or corner";
-	if (placed && !(float_abs(edit->f[0]) <= 20000.0f && float_abs(edit->f[1]) <= 20000.0f))
+	if (placed && !session_is_place(edit->f[0], edit->f[1], 0.0f))
 		return "the outline leaves the sheet (10 m from its middle)";
 	return NULL;
 }

@@ -230,14 +230,6 @@ static void take_outline(struct edit *edit, const struct piece *piece)
 	}
 }
 
-static int free_piece(const struct session *session)
-{
-	for (int p = 0; p < PIECES_MAX; p++)
-		if (!session->document.pattern.piece[p].used)
-			return p;
-	return -1;
-}
-
 /* From where the pen came down to where it is, in whole centimetres. */
 static void ready(struct tool *tool)
 {
@@ -245,7 +237,7 @@ static void ready(struct tool *tool)
 	struct shaping *shaping = &ui->shaping;
 	struct v2 from = start_mm(ui), d = v2_sub(pen_mm(ui), from);
 	struct v2 size = {whole_size(d.x), whole_size(d.y)};
-	int at = free_piece(tool->session);
+	int at = pattern_free_piece(&tool->session->document.pattern);
 	shaping->draft = tool->session->document;
 	if (at < 0) {
 		shaping->fault = "the pattern is full";
