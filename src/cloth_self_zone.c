@@ -27,7 +27,8 @@ static void find_zones(struct cloth *cloth)
 	struct cloth_self *self = cloth->self;
 	int vertices = cloth->garment->vertex_count;
 	forest_begin(self->root, vertices);
-	memset(self->crossed, 0, (size_t)vertices * sizeof *self->crossed);
+	for (int v = 0; v < vertices; v++)
+		self->crossed[v] = 0;
 	for (int v = 0; v < vertices; v++)
 		for (int i = 0; i < self->pair_count[v]; i++)
 			join_triangle(self, v, cloth->triangle[self_pair(self, v, i) / 4].v);
