@@ -17,8 +17,8 @@ struct scene {
 
 enum { SCENE_BYTES = 256 << 20, SCENE_WRAP_FRAMES_MAX = 2000 };
 
-/* Stops the program when there is no memory or no mannequin. */
-static inline struct scene *scene_open(void)
+/* Nobody stands there. Stops the program when there is no memory. */
+static inline struct scene *scene_open_empty(void)
 {
 	struct scene *scene = calloc(1, sizeof *scene);
 	void *memory = malloc(SCENE_BYTES);
@@ -26,6 +26,12 @@ static inline struct scene *scene_open(void)
 	scene->memory = memory;
 	arena_init(&scene->arena, memory, SCENE_BYTES);
 	session_init(&scene->session, &scene->arena);
+	return scene;
+}
+
+static inline struct scene *scene_open(void)
+{
+	struct scene *scene = scene_open_empty();
 	MUST(!body_build_mannequin(&scene->session.body));
 	body_find_parts(&scene->session.body);
 	return scene;
@@ -35,6 +41,26 @@ static inline bool scene_edit(struct scene *scene, enum edit_kind kind)
 {
 	scene->edit.kind = kind;
 	return session_apply(&scene->session, &scene->edit);
+}
+
+/* An edit as the journal's line says it. */
+static inline bool scene_line(struct scene *scene, const char *line)
+{
+	char fault[160];
+	MUST(journal_read(line, (int)strlen(line), &scene->edit, fault) == JOURNAL_EDIT);
+	return session_apply(&scene->session, &scene->edit);
+}
+
+/* The document's pieces as cloth of so many vertices that lies nowhere yet. */
+static inline void scene_mesh(struct scene *scene, int vertices)
+{
+	struct session *session = &scene->session;
+	bool done = false;
+	MUST(!garment_start(session->mesher, &session->garment, &session->document.pattern,
+			    vertices));
+	while (!done)
+		garment_advance(session->mesher, 100000, &done);
+	cloth_reset(&session->cloth, &session->garment, &session->body);
 }
 
 /* Applies a journal up to its first WRAP. Returns the lines refused, -1 when it can't be read. */

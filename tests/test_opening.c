@@ -64,12 +64,8 @@ static void test_trousers(void)
 	struct session *session = &scene->session;
 	struct measure_scratch *measurer = measure_init(&scene->arena);
 	struct measure measure;
-	char fault[160];
-	for (int i = 0; i < COUNT_OF(journal); i++) {
-		CHECK(journal_read(journal[i], (int)strlen(journal[i]), &scene->edit, fault) ==
-		      JOURNAL_EDIT);
-		CHECK(session_apply(session, &scene->edit));
-	}
+	for (int i = 0; i < COUNT_OF(journal); i++)
+		CHECK(scene_line(scene, journal[i]));
 	CHECK(scene_wrap(scene));
 	measure_garment(&measure, &session->cloth, measurer);
 	printf("trousers: edges through %d, facing in %d, crossing %d, strain p95 %.3f\n",

@@ -14,21 +14,15 @@ static void sew(struct scene *scene, int panel_mm)
 	struct session *session = &scene->session;
 	struct cloth *cloth = &session->cloth;
 	struct garment *garment = &session->garment;
-	char line[3][120], fault[160];
-	bool done = false;
+	char line[3][120];
 	snprintf(line[0], sizeof line[0], "piece band 0 0 0 0 0 0 0 1 %d 0 1 %d 60 1 0 60 1",
 		 BAND_MM, BAND_MM);
 	snprintf(line[1], sizeof line[1], "piece panel 0 0 0 0 0 0 0 1 %d 0 1 %d 300 1 0 300 1",
 		 panel_mm, panel_mm);
 	snprintf(line[2], sizeof line[2], "sew 0 0 1 2 0");
 	for (int i = 0; i < 3; i++)
-		MUST(journal_read(line[i], (int)strlen(line[i]), &scene->edit, fault) ==
-			     JOURNAL_EDIT &&
-		     session_apply(session, &scene->edit));
-	MUST(!garment_start(session->mesher, garment, &session->document.pattern, 600));
-	while (!done)
-		garment_advance(session->mesher, 100000, &done);
-	cloth_reset(cloth, garment, &session->body);
+		MUST(scene_line(scene, line[i]));
+	scene_mesh(scene, 600);
 	for (int v = 0; v < garment->vertex_count; v++) {
 		struct v2 p = garment->rest_m[v];
 		bool band = garment->piece[v] == 0;

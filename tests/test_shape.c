@@ -1,13 +1,12 @@
 /* Edits of shapes: what a corner, an edge or the whole is told, and what follows it: marks, seams,
  * the other half of a symmetric piece, evenly sewn edges. Then rows of edits at random. */
 #include "edits.h"
-#include "journal.h"
+#include "scene.h"
 #include "test.h"
-
-#include <stdlib.h>
 
 enum { ROWS = 60, ROW_EDITS = 40 };
 
+static struct scene *scene;
 static struct session *session;
 
 static const struct piece *piece_at(int piece)
@@ -22,10 +21,7 @@ static const struct seam *seam_at(int seam)
 
 static bool say(const char *line)
 {
-	static struct edit edit;
-	char fault[160];
-	CHECK(journal_read(line, (int)strlen(line), &edit, fault) == JOURNAL_EDIT);
-	return session_apply(session, &edit);
+	return scene_line(scene, line);
 }
 
 /* Two boxes of 400 x 600 side by side, the right one's left edge sewn to the left one's right. */
@@ -205,12 +201,8 @@ static void test_rows(void)
 
 int main(void)
 {
-	struct arena arena;
-	void *memory = malloc(KIOSK_MEMORY_BYTES);
-	session = calloc(1, sizeof *session);
-	MUST(memory && session);
-	arena_init(&arena, memory, KIOSK_MEMORY_BYTES);
-	session_init(session, &arena);
+	scene = scene_open_empty();
+	session = &scene->session;
 	test_scale();
 	test_corners();
 	test_bends();
@@ -218,7 +210,6 @@ int main(void)
 	test_fold();
 	test_even();
 	test_rows();
-	free(memory);
-	free(session);
+	scene_close(scene);
 	return test_end();
 }

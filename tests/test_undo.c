@@ -1,5 +1,6 @@
 /* Undo: whole states come back bit for bit, forwards and backwards; a garment too large for
  * UNDO_STATES_MAX of its states costs old ones, never the near ones. */
+#include "scene.h"
 #include "session_undo.h"
 #include "shapes.h"
 #include "test.h"
@@ -105,19 +106,14 @@ static void test_branch(void)
 int main(void)
 {
 	static struct shape shape;
-	struct arena arena;
-	void *memory = malloc(KIOSK_MEMORY_BYTES);
-	session = calloc(1, sizeof *session);
-	MUST(memory && session);
-	arena_init(&arena, memory, KIOSK_MEMORY_BYTES);
-	session_init(session, &arena);
+	struct scene *scene = scene_open_empty();
+	session = &scene->session;
 	shape_box(&shape, 0.3f, 0.3f, 0.1f);
 	MUST(!body_build(&session->body, shape.position_m, shape.vertex_count, shape.triangle,
 			 shape.triangle_count));
 	test_small();
 	test_large();
 	test_branch();
-	free(session);
-	free(memory);
+	scene_close(scene);
 	return test_end();
 }

@@ -7,13 +7,6 @@
 
 enum { SIDE_MM = 300 };
 
-static void apply(struct scene *scene, const char *line)
-{
-	char fault[160];
-	MUST(journal_read(line, (int)strlen(line), &scene->edit, fault) == JOURNAL_EDIT);
-	CHECK(session_apply(&scene->session, &scene->edit));
-}
-
 /* A square sheet stretched along a direction: by `low` where it begins across it, by `high` at its
  * end. */
 static struct scene *sheet(struct v2 along, float low, float high)
@@ -22,12 +15,8 @@ static struct scene *sheet(struct v2 along, float low, float high)
 	struct session *session = &scene->session;
 	struct cloth *cloth = &session->cloth;
 	struct garment *garment = &session->garment;
-	bool done = false;
-	apply(scene, "piece sheet 0 0 0 0 0 0 0 1 300 0 1 300 300 1 0 300 1");
-	MUST(!garment_start(session->mesher, garment, &session->document.pattern, 600));
-	while (!done)
-		garment_advance(session->mesher, 100000, &done);
-	cloth_reset(cloth, garment, &session->body);
+	CHECK(scene_line(scene, "piece sheet 0 0 0 0 0 0 0 1 300 0 1 300 300 1 0 300 1"));
+	scene_mesh(scene, 600);
 	for (int v = 0; v < garment->vertex_count; v++) {
 		struct v2 p = garment->rest_m[v];
 		float at_m = v2_dot(p, along) - 0.15f * (along.x + along.y),
