@@ -34,7 +34,7 @@ INC_firmware-host := -iquote src -iquote drivers -iquote ui -iquote firmware-hos
 INC_tests         := $(INC_firmware-host) -iquote tests
 
 # Of src, drivers may include these alone: a vocabulary, not the model.
-DRIVER_VOCABULARY := arena base bone edit input journal limits pattern triangle vec
+DRIVER_VOCABULARY := arena base bone edit input journal limits mark pattern triangle vec
 
 # The core may ask the C library for these and for nothing else: no heap, no clock, no files, no
 # libm function whose last bit differs between systems.
@@ -79,7 +79,7 @@ KERNEL_TOOLS := $(patsubst %.c,$(B)/%,$(filter-out %_common.c,$(call sources,tes
 ALL   := $(LIB) $(MAIN) $(call sources,tests) $(call sources,tests/kernel)
 DATA  := $(wildcard tests/tapes/* tests/journals/*)
 
-PACKAGES := cairo pangocairo jansson hidapi-hidraw libusb-1.0 libgpiod libdrm gbm egl glesv2 sdl2 libpng libudev libwacom
+PACKAGES := cairo pangocairo jansson zlib libqrencode hidapi-hidraw libusb-1.0 libgpiod libdrm gbm egl glesv2 sdl2 libpng libudev libwacom
 # Asked once, and only when something is to be compiled.
 PACKAGE_CFLAGS = $(eval PACKAGE_CFLAGS := $(shell pkg-config --cflags $(PACKAGES)))$(PACKAGE_CFLAGS)
 PACKAGE_LIBS   = $(eval PACKAGE_LIBS := $(shell pkg-config --libs $(PACKAGES)))$(PACKAGE_LIBS)

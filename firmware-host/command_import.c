@@ -1,11 +1,13 @@
 /* kitsuke import PATTERN --journal FILE: a pattern file becomes a document, with marks (--marks)
- * one that dresses whoever is named. */
+ * one that dresses whoever is named; so does what a visitor took home (import_code.c). */
 #include "commands.h"
 
+#include "format_code.h"
 #include "format_garment.h"
 #include "format_marks.h"
 #include "format_marks_guess.h"
 #include "body_landmark.h"
+#include "import_code.h"
 #include "journal.h"
 #include "options.h"
 #include "store.h"
@@ -13,7 +15,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static const char usage[] = "usage: kitsuke import PATTERN [--marks FILE|guess] --journal FILE\n";
+static const char usage[] =
+	"usage: kitsuke import PATTERN [--marks FILE|guess] --journal FILE\n"
+	"       kitsuke import CARD|CODE --journal FILE\n"
+	"CARD: a card's PNG, or a file with the text of its QR code; CODE: that text, quoted\n";
 
 static void put_edit(FILE *out, const struct edit *edit, char line[JOURNAL_LINE_MAX])
 {
@@ -226,6 +231,35 @@ static bool read_pattern(struct pattern *pattern, struct design_marks *marks, co
 	return read;
 }
 
+static int write_journal(const char *journal, char *document, size_t size, char fault[FAULT_BYTES])
+{
+	bool written = document && store_write(journal, document, size, fault);
+	free(document);
+	if (!written)
+		fprintf(stderr, "kitsuke import: %s\n", fault);
+	return written ? STATUS_DONE : STATUS_MACHINE;
+}
+
+/* What a visitor took home, as a text or a file. -1: it is something else. */
+static int import_home(const char *what, const char *journal)
+{
+	char fault[FAULT_BYTES], *document = NULL;
+	size_t size = strlen(what), journal_size;
+	bool text = code_begins(what, size);
+	char *bytes = text ? NULL : store_read(what, &size, fault);
+	if (!text && (!bytes || !import_is_code(bytes, size))) {
+		free(bytes);
+		return -1;
+	}
+	document = import_code(text ? "the code" : what, text ? what : bytes, size, &journal_size,
+			       fault);
+	free(bytes);
+	if (document)
+		return write_journal(journal, document, journal_size, fault);
+	fprintf(stderr, "kitsuke import: %s\n", fault);
+	return STATUS_INPUT;
+}
+
 static int import(const char *path, const char *marks_path, const char *journal)
 {
 	static struct pattern pattern;
@@ -238,11 +272,7 @@ static int import(const char *path, const char *marks_path, const char *journal)
 	}
 	char *document = write_document(&pattern, &marks, &size);
 	snprintf(fault, sizeof fault, "not enough memory for the journal");
-	bool written = document && store_write(journal, document, size, fault);
-	free(document);
-	if (!written)
-		fprintf(stderr, "kitsuke import: %s\n", fault);
-	return written ? STATUS_DONE : STATUS_MACHINE;
+	return write_journal(journal, document, size, fault);
 }
 
 int command_import(int argc, char **argv)
@@ -256,5 +286,6 @@ int command_import(int argc, char **argv)
 		fputs(usage, stderr);
 		return STATUS_USAGE;
 	}
-	return import(files[0], marks, journal);
+	int status = marks ? -1 : import_home(files[0], journal);
+	return status >= 0 ? status : import(files[0], marks, journal);
 }
