@@ -40,6 +40,8 @@ const char board_text[] =
 	"idle_s = 180\n"
 	"# both: Japanese over English; ja; en. The visitor can change it on the screen.\n"
 	"language = both\n"
+	"# The station's name, as it stands on the cards that visitors take home; none.\n"
+	"station = none\n"
 	"# Digits, 4 to 8, that the service page asks for (all buttons held for five seconds); "
 	"none.\n"
 	"service_pin = none\n"
@@ -208,6 +210,20 @@ static bool value_language(struct reader *r)
 	return fault(r, "give both, ja or en");
 }
 
+/* Words of any script, without anything that is no letter's byte. */
+static bool value_station(struct reader *r)
+{
+	size_t size = strcmp(r->value, "none") ? strlen(r->value) : 0;
+	if (size >= BOARD_NAME_MAX)
+		return fault(r, "give a name of at most 63 bytes, or none");
+	for (size_t i = 0; i < size; i++)
+		if ((unsigned char)r->value[i] < ' ' || r->value[i] == 0x7f)
+			return fault(r, "give a name in one line of plain text (UTF-8), or none");
+	memcpy(r->board->station, r->value, size);
+	r->board->station[size] = 0;
+	return true;
+}
+
 static bool value_service_pin(struct reader *r)
 {
 	size_t size = strcmp(r->value, "none") ? strlen(r->value) : 0;
@@ -275,6 +291,7 @@ enum key {
 	KEY_CPUS,
 	KEY_IDLE,
 	KEY_LANGUAGE,
+	KEY_STATION,
 	KEY_SERVICE_PIN,
 	KEY_TABLET,
 	KEY_TABLET_MM,
@@ -285,10 +302,10 @@ enum key {
 };
 
 static const char *key_names[KEY_COUNT] = {
-	"display_mm",  "rotation",    "wrap",    "pin",         "relax",
-	"active_low",  "budget",      "threads", "thread_cpus", "idle_s",
-	"language",    "service_pin", "tablet",  "tablet_mm",   "tablet_rotation",
-	"pen_display", "calibration",
+	"display_mm",      "rotation",    "wrap",        "pin",         "relax",
+	"active_low",      "budget",      "threads",     "thread_cpus", "idle_s",
+	"language",        "station",     "service_pin", "tablet",      "tablet_mm",
+	"tablet_rotation", "pen_display", "calibration",
 };
 
 static bool key_read(struct reader *r, enum key key)
@@ -317,6 +334,8 @@ static bool key_read(struct reader *r, enum key key)
 		return value_int(r, 0, 86400, &board->idle_s);
 	case KEY_LANGUAGE:
 		return value_language(r);
+	case KEY_STATION:
+		return value_station(r);
 	case KEY_SERVICE_PIN:
 		return value_service_pin(r);
 	case KEY_TABLET:

@@ -32,6 +32,7 @@ struct board {
 	int thread_cpu[BOARD_THREADS_MAX - 1]; /* of the threads beside the frame's own */
 	int idle_s; /* without a touch for so long, the station starts anew; 0: never */
 	enum board_language language;
+	char station[BOARD_NAME_MAX];        /* its name, on the cards that it makes; "": none */
 	char service_pin[BOARD_PIN_MAX + 1]; /* digits that open the service page; "": none asked */
 	int tablet_vendor, tablet_product;   /* take this tablet only; 0, 0: any */
 	float tablet_width_mm, tablet_height_mm; /* 0: what the tablet itself says */
