@@ -3,6 +3,7 @@
 #include "draw_notice.h"
 #include "draw_private.h"
 #include "draw_service.h"
+#include "draw_take_home.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -106,6 +107,8 @@ void draw_close(struct draw *draw)
 	sprites_release(draw);
 	service_sheet_close(draw->service);
 	notice_sheet_close(draw->notice);
+	take_home_sheet_close(draw->take_home);
+	portrait_release(draw);
 	if (draw->sheet)
 		sheet_close(draw->sheet);
 	if (draw->chrome)
@@ -272,4 +275,29 @@ void draw_notice_end(struct draw *draw)
 	notice_sheet_close(draw->notice);
 	plate_drop(&draw->notice_plate);
 	draw->notice = NULL;
+}
+
+bool draw_take_home(struct draw *draw, const struct ui *ui, const struct take_home_page *page,
+		    char fault[200])
+{
+	if (!draw->take_home)
+		draw->take_home = take_home_sheet_open(draw->width, draw->height, fault);
+	if (!draw->take_home)
+		return false;
+	const struct layer *layer = take_home_sheet_update(draw->take_home, ui, page);
+	layer_take(draw, &draw->take_home_plate, layer);
+	glDisable(GL_SCISSOR_TEST);
+	glDisable(GL_DEPTH_TEST);
+	glViewport(0, 0, draw->width, draw->height);
+	layer_draw(draw, &draw->take_home_plate, layer, true);
+	return true;
+}
+
+void draw_take_home_end(struct draw *draw)
+{
+	if (!draw->take_home)
+		return;
+	take_home_sheet_close(draw->take_home);
+	plate_drop(&draw->take_home_plate);
+	draw->take_home = NULL;
 }

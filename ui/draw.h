@@ -5,6 +5,7 @@
 #define DRAW_H
 
 #include "service_page.h"
+#include "take_home_page.h"
 #include "ui.h"
 
 struct draw;
@@ -27,6 +28,19 @@ void draw_service_end(struct draw *draw);
 bool draw_notice(struct draw *draw, enum language language, int left_s, int whole_s,
 		 char fault[200]);
 void draw_notice_end(struct draw *draw);
+
+/* The figure alone, into memory of GL that is taken for it: PORTRAIT_WIDTH x PORTRAIT_HEIGHT pixels
+ * on nothing (draw_card.h), from azimuth_rad as view_look has it. Costs about a frame's drawing. A
+ * frame or two later draw_portrait_fetch gives its pixels from malloc, in cairo's ARGB32; NULL: no
+ * memory. Nothing of it stays after draw_portrait_end. */
+bool draw_portrait(struct draw *draw, const struct session *session, float azimuth_rad);
+unsigned char *draw_portrait_fetch(struct draw *draw);
+void draw_portrait_end(struct draw *draw);
+
+/* The page with the finished card in place of a frame; taken and given back like the operator's. */
+bool draw_take_home(struct draw *draw, const struct ui *ui, const struct take_home_page *page,
+		    char fault[200]);
+void draw_take_home_end(struct draw *draw);
 
 /* The body's mesh changed (start, another character). */
 void draw_body_changed(struct draw *draw);

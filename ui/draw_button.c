@@ -234,12 +234,32 @@ static void draw_clear(const struct brush *brush, struct rect rect, const struct
 	cairo_restore(cr);
 	cairo_push_group(cr);
 	ink(cr, LOOK_INK, 1.0);
-	draw_icon(cr, ICON_AGAIN, rect.x + 36.0 * u, rect.y + 0.5 * rect.h, 34.0 * u);
-	struct label label = {23.0 * u, 17.0 * u, LOOK_INK, LOOK_INK_GREY, ALIGN_LEFT};
-	draw_phrase(cr, brush->type, &text_target[TARGET_CLEAR], brush->language,
-		    inner(rect, (int)(64.0 * u), (int)(16.0 * u)), &label);
+	draw_icon(cr, ICON_AGAIN, rect.x + 0.5 * rect.w, rect.y + 28.0 * u, 30.0 * u);
+	struct rect words = {rect.x + (int)(5.0 * u), rect.y + (int)(46.0 * u),
+			     rect.w - (int)(10.0 * u), rect.h - (int)(48.0 * u)};
+	struct label label = {17.0 * u, 14.0 * u, LOOK_INK, LOOK_INK_GREY, ALIGN_CENTRE};
+	draw_phrase(cr, brush->type, &text_target[TARGET_CLEAR], brush->language, words, &label);
 	cairo_pop_group_to_source(cr);
 	cairo_paint_with_alpha(cr, alpha);
+}
+
+/* The way home: dark, so that it is no fourth twin. */
+static void draw_finish(const struct brush *brush, struct rect rect, const struct face *face)
+{
+	double u = brush->unit;
+	uint32_t ground = colour_mix(LOOK_NIGHT, 0x000000, face->pressed ? 0.3 : 0.0);
+	fill_box(brush, rect, 18.0, face->useful ? ground : colour_mix(LOOK_NIGHT, LOOK_BAR, 0.62),
+		 1.0);
+	struct label label = {27.0 * u, 20.0 * u, 0xffffff, face->useful ? 0xb8c4cf : 0xffffff,
+			      ALIGN_CENTRE};
+	draw_phrase(brush->cr, brush->type, &text_target[TARGET_FINISH], brush->language,
+		    inner(rect, (int)(12.0 * u), (int)(12.0 * u)), &label);
+	if (!face->hover || !face->useful)
+		return;
+	round_rect(brush->cr, rect, 18.0 * u);
+	cairo_set_line_width(brush->cr, 4.0 * u);
+	ink(brush->cr, LOOK_HINT_RIM, 1.0);
+	cairo_stroke(brush->cr);
 }
 
 static void draw_hint(const struct brush *brush, struct rect rect, const struct face *face)
@@ -315,6 +335,8 @@ void draw_button(const struct brush *brush, struct rect rect, const struct face 
 		draw_language(brush, rect, face);
 	else if (target == TARGET_HAND)
 		draw_hand(brush, rect, face);
+	else if (target == TARGET_FINISH)
+		draw_finish(brush, rect, face);
 	else if (target == TARGET_CLEAR)
 		draw_clear(brush, rect, face);
 	else if (target <= TARGET_VIEW_BACK)

@@ -266,8 +266,11 @@ struct draw {
 	struct plate service_plate;
 	struct notice_sheet *notice; /* NULL: none */
 	struct plate notice_plate;
-	uint8_t *rows; /* a screenful, on its way up */
-	float px;      /* one pixel of the look's drawing (1080 lines) on this screen */
+	struct take_home_sheet *take_home; /* NULL: the page is closed */
+	struct plate take_home_plate;
+	struct portrait *portrait; /* NULL: none is being drawn */
+	uint8_t *rows;             /* a screenful, on its way up */
+	float px;                  /* one pixel of the look's drawing (1080 lines) on this screen */
 	bool bones;
 	bool software; /* processors do the GPU's work */
 };
@@ -362,6 +365,8 @@ void sprite_ring(struct draw *draw, struct v2 centre_px, float radius_px, uint32
 void marks_add(struct draw *draw, const struct ui *ui, const struct session *session);
 void hand_add(struct draw *draw, const struct ui *ui, const struct session *session);
 void bones_add(struct draw *draw, const struct body *body);
+
+void portrait_release(struct draw *draw);
 
 bool plate_open(struct draw *draw, struct plate *plate, int width, int height);
 

@@ -2,7 +2,7 @@
  *
  *   +--------------------------- bar: steps, undo, redo, language, hand
  * ---------------------------+ | left: figure, view buttons        | right: sheet, hint, swatches |
- *   +--------- bottom: the step's tools | the three twins | start over
+ *   +--------- bottom: the step's tools | the three twins | start over, finish
  * ----------------------------+
  *
  * Numbers are those of the look's drawing at 1920 x 1080. Positions across scale with the width,
@@ -87,7 +87,8 @@ static void make_bottom(struct layout *l)
 	int top = l->bottom.y;
 	for (int i = 0; i < 3; i++)
 		l->target[TARGET_WRAP + i] = box(l, top, 528 + 366 * i, 12, 350, 124);
-	l->target[TARGET_CLEAR] = box(l, top, 1660, 24, 226, 100);
+	l->target[TARGET_CLEAR] = box(l, top, 1614, 24, 96, 100);
+	l->target[TARGET_FINISH] = box(l, top, 1720, 20, 176, 108);
 	switch (l->step) {
 	case STEP_DRAW:
 		for (int i = 0; i < 4; i++)

@@ -32,6 +32,7 @@ const struct phrase text_target[TARGET_COUNT] = {
 	[TARGET_TOOL_ROUND] = {"丸", "Round"},
 	[TARGET_FOLD] = {"左右同じ", "Symmetric"},
 	[TARGET_EVEN] = {"同じ長さ", "Equal"},
+	[TARGET_FINISH] = {"できあがり", "Take it home"},
 };
 
 const struct phrase text_phrase[TEXT_COUNT] = {
@@ -95,6 +96,7 @@ const struct phrase text_phrase[TEXT_COUNT] = {
 	[TEXT_OFF_BODY] = {"体の上に線を引こう", "Draw the line on the body"},
 	[TEXT_NO_PAIR] = {"先に、布と体に同じ番号の線を引こう",
 			  "First draw a line on the cloth and its partner on the body"},
+	[TEXT_NOTHING] = {"先に、布を描こう", "First draw a piece of cloth"},
 	[TEXT_NOT_WORN] = {"先に「着せる」を押そう", "Press WRAP first"},
 	[TEXT_FULL] = {"もういっぱいです。何かを消そう", "It is full. Remove something first"},
 	[TEXT_MESH] = {"この形は着せられません。布を描き直そう",

@@ -53,6 +53,7 @@ enum text {
 	TEXT_OFF_BODY,
 	TEXT_NO_PAIR,
 	TEXT_NOT_WORN,
+	TEXT_NOTHING,
 	TEXT_FULL,
 	TEXT_MESH,
 	/* What a wrap found (struct diagnosis; S10). */

@@ -1,4 +1,5 @@
 #include "ui.h"
+#include "take_home_page.h"
 #include "tool.h"
 
 enum { NOTICE_FRAMES = 4 * FRAME_RATE_HZ, REFUSED_FRAMES = 6 * FRAME_RATE_HZ };
@@ -93,6 +94,8 @@ bool ui_useful(const struct ui *ui, const struct session *session, enum target t
 		return seam_selected(ui, session);
 	case TARGET_ZOOM_OUT:
 		return ui->zoomed;
+	case TARGET_FINISH:
+		return pieces_used(&session->document.pattern) != 0;
 	case TARGET_ERASE:
 		return any_marks(&session->document.marks);
 	case TARGET_WRAP:
@@ -209,6 +212,12 @@ void gesture_target(struct tool *tool, enum target target)
 		break;
 	case TARGET_ZOOM_OUT:
 		zoom_out(ui);
+		break;
+	case TARGET_FINISH:
+		if (pieces_used(&tool->session->document.pattern))
+			take_home_open(ui);
+		else
+			tool_notice(tool, TEXT_NOTHING);
 		break;
 	case TARGET_DELETE:
 		if (ui->step == STEP_SEW)
@@ -344,8 +353,14 @@ void ui_update(struct ui *ui, const struct frame_input *input, const struct sess
 	follow_notice(ui, session);
 	follow_document(ui, session);
 	follow_use(ui, session);
-	gesture_samples(&tool, input);
-	press_buttons(&tool, input);
+	if (ui->take_home.open) {
+		static const struct frame_input nothing;
+		press_buttons(&tool, &nothing); /* what was held is let go */
+		take_home_update(ui, input);
+	} else {
+		gesture_samples(&tool, input);
+		press_buttons(&tool, input);
+	}
 	follow_sheet(ui, session);
 	ui->sent = edits->count > before;
 }

@@ -61,6 +61,7 @@ enum target {
 	TARGET_EVEN,     /* step 2: the selected seam's edges are kept equally long */
 	TARGET_ZOOM_OUT, /* until all of the pattern is seen */
 	TARGET_ZOOM_IN,
+	TARGET_FINISH, /* makes the card to take home */
 	TARGET_COUNT,
 };
 
@@ -260,6 +261,13 @@ struct ui {
 
 	int frame;               /* for motion that explains; counts ui_update calls */
 	int pulse[TARGET_COUNT]; /* frame at which a target became useful; 0: not */
+	struct {
+		bool open;   /* the page with the card lies over all */
+		int count;   /* times it was opened */
+		bool leave;  /* the visitor has done with it: the next one may come */
+		int pressed; /* key, -1: none */
+		bool down;   /* the pen touches, */
+	} take_home;         /* take_home_page.h */
 	uint8_t buttons_held;
 	bool relax_wanted, relax_held; /* by hand; as last told to the session */
 	int notice;                    /* enum text: a line for the visitor; 0: the step's hint */
