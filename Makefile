@@ -105,6 +105,7 @@ $(FUZZ): LINK := -fsanitize=fuzzer
 $(B)/tests/bench_frame: LINK := -Wl,--wrap=drag_move,--wrap=cloth_self
 $(B)/tests/test_display_turn: LINK := -Wl,--wrap=display_context_lost
 $(B)/tests/test_latency: LINK := -Wl,--wrap=read
+$(B)/tests/test_take_home: LINK := $(patsubst %,-Wl$(comma)--wrap=%,open write fsync)
 $(B)/tests/test_allocation: LINK := $(patsubst %,-Wl$(comma)--wrap=%,malloc calloc realloc \
                              aligned_alloc posix_memalign strdup strndup)
 

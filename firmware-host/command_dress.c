@@ -1,6 +1,7 @@
 /* kitsuke dress JOURNAL: a document is run without input devices. */
 #include "commands.h"
 
+#include "card_file.h"
 #include "character.h"
 #include "drape_file.h"
 #include "garment_file.h"
@@ -21,10 +22,12 @@ enum { PICTURE_WIDTH = 1280, PICTURE_HEIGHT = 720, PROGRESS_FRAMES = 30 };
 static const char usage[] =
 	"usage: kitsuke dress JOURNAL [--obj FILE] [--glb FILE] [--picture FILE] [--report FILE]\n"
 	"                     [--body FILE|mannequin] [--body-obj FILE] [--bones FILE]\n"
-	"                     [--bones-out FILE] [--start OBJ] [--threads N] [--progress]\n";
+	"                     [--bones-out FILE] [--start OBJ] [--card FILE] [--threads N] "
+	"[--progress]\n";
 
 struct dresser {
 	const char *start; /* a drape that stands for the first wrap */
+	const char *card;  /* the picture that visitors take home */
 	const char *journal, *obj, *glb, *picture, *report, *body, *body_obj, *bones, *bones_out;
 	bool progress;
 	long thread_count;
@@ -253,6 +256,9 @@ static int write_results(struct dresser *dresser)
 		return complain(dresser, STATUS_MACHINE);
 	if (dresser->picture && !write_picture(dresser))
 		return complain(dresser, STATUS_MACHINE);
+	if (dresser->card && !card_file_write(session, dresser->body_name, dresser->journal,
+					      dresser->card, dresser->fault))
+		return complain(dresser, STATUS_MACHINE);
 	return STATUS_DONE;
 }
 
@@ -282,6 +288,7 @@ int command_dress(int argc, char **argv)
 		{"--start", NULL, &dresser.start, NULL},
 		{"--picture", NULL, &dresser.picture, NULL},
 		{"--report", NULL, &dresser.report, NULL},
+		{"--card", NULL, &dresser.card, NULL},
 		{"--body", NULL, &dresser.body, NULL},
 		{"--body-obj", NULL, &dresser.body_obj, NULL},
 		{"--bones", NULL, &dresser.bones, NULL},

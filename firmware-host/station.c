@@ -79,7 +79,7 @@ static void find_folder(struct station *station)
 /* Without a place to write the visit goes on unsaved, and the operator is told. */
 static void open_journal(struct station *station)
 {
-	char path[PATH_BYTES_MAX], fault[FAULT_BYTES];
+	char *path = station->journal_path, fault[FAULT_BYTES];
 	time_t now = time(NULL);
 	struct tm parts;
 	station->journal = -1;
@@ -88,7 +88,7 @@ static void open_journal(struct station *station)
 	char name[64];
 	strftime(name, sizeof name, "visit-%Y%m%d-%H%M%S.kitsuke", &parts);
 	if (store_make_folder(station->folder, fault) &&
-	    store_join(path, sizeof path, station->folder, name, fault)) {
+	    store_join(path, sizeof station->journal_path, station->folder, name, fault)) {
 		station->journal = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
 		if (station->journal < 0)
 			snprintf(fault, sizeof fault, "%.200s: %s", path, strerror(errno));
@@ -253,6 +253,15 @@ static void run_visit(struct station *station, unsigned unplugged)
 		station_open_desk(station);
 }
 
+/* The visitor said so: the station waits for the next one. */
+static bool done_with_card(struct station *station)
+{
+	bool done = station_run_card(station);
+	if (done)
+		station->cycle = (struct cycle){.state = CYCLE_ATTRACT};
+	return done;
+}
+
 static bool run(struct station *station)
 {
 	while (!stopped) {
@@ -265,6 +274,7 @@ static bool run(struct station *station)
 			anew = station_run_desk(station, unplugged);
 		else
 			run_visit(station, unplugged);
+		anew |= done_with_card(station);
 		desk_time(station->desk, live_clock_us() - began_us);
 		if (!station_show(station))
 			return false;
@@ -287,6 +297,7 @@ static void close_station(struct station *station)
 	threads_stop(&station->threads);
 	if (station->kiosk)
 		end_visit(station);
+	station_close_card(station);
 	if (station->buttons)
 		buttons_close(station->buttons);
 	if (station->live)

@@ -11,8 +11,29 @@
 #include "desk.h"
 #include "service.h"
 #include "store.h"
+#include "take_home.h"
 #include "tape_recorder.h"
 #include "threads.h"
+
+enum station_card_phase {
+	CARD_NONE, /* the page is closed, or waits for the card before this one */
+	CARD_FRONT,
+	CARD_FRONT_DRAWN,
+	CARD_BACK,
+	CARD_BACK_DRAWN,
+	CARD_READY,
+	CARD_MAKING,
+};
+
+/* The card to take home, while its page is open. */
+struct station_card {
+	enum station_card_phase phase;
+	int frames, drawn; /* since the page was opened; at which a portrait was drawn */
+	int seen;          /* home's page as shown */
+	unsigned char *portrait[2];
+	struct take_home *home; /* NULL: no thread works */
+	struct take_home_page page;
+};
 
 struct station {
 	const char *board_path, *body, *journals, *tape, *out;
@@ -40,9 +61,12 @@ struct station {
 	int64_t start_us; /* of frame 0, on CLOCK_MONOTONIC; moves on with every late frame */
 	unsigned plugged; /* in this frame, a bit a device */
 	int64_t opened_us;
-	int64_t collected_us;           /* of the last frame's reports */
-	int journal;                    /* file, -1: none */
+	int64_t collected_us; /* of the last frame's reports */
+	int journal;          /* file, -1: none */
+	char journal_path[PATH_BYTES_MAX];
 	char tape_path[PATH_BYTES_MAX]; /* "" none */
+	struct station_card card;
+	const struct stick_places *sticks; /* NULL: the kernel's */
 	struct tape_recorder tape_made;
 	struct pen_mount tape_mount; /* how the pens lie, as it stands on the tape */
 	int redraw;                  /* frame from which on drawing may be tried again */
@@ -90,6 +114,15 @@ void station_show_page(struct station *station);
 
 /* A frame of the page. True: a visit must begin anew. */
 bool station_run_desk(struct station *station, unsigned unplugged);
+
+/* A frame of the card to take home. True: the visitor has done, the next one may come. */
+bool station_run_card(struct station *station);
+
+/* Its page in place of a frame. False: it is closed (or fault says why it can't be shown). */
+bool station_draw_card(struct station *station, char fault[200]);
+
+/* Waits until a card that is being written is. */
+void station_close_card(struct station *station);
 
 /* Tells the operator everything that the machine knows about itself. */
 void station_tell_service(struct station *station);

@@ -149,9 +149,14 @@ static void draw_picture(struct station *station)
 	if (station->desk->open && draw_service(station->draw, &station->desk->page, fault))
 		return;
 	draw_service_end(station->draw);
-	read_late(station);
-	draw_visit(station);
-	kiosk_late_hide(&station->late, kiosk);
+	fault[0] = 0;
+	if (!station_draw_card(station, fault)) {
+		if (fault[0])
+			station_say(fault);
+		read_late(station);
+		draw_visit(station);
+		kiosk_late_hide(&station->late, kiosk);
+	}
 	if (station->cycle.state == CYCLE_VISIT)
 		draw_notice_end(station->draw);
 	else if (!draw_notice(station->draw, kiosk->ui.language, station->cycle.left_s,

@@ -119,15 +119,19 @@ bool store_write(const char *path, const void *bytes, size_t size, char fault[FA
 	if (fd < 0)
 		return fail_errno(fault, path, "can't be written");
 	bool written = write_all(fd, bytes, size) && fsync(fd) == 0;
+	int number = errno;
 	if (!written)
 		fail_errno(fault, path, "can't be written");
 	close(fd);
-	if (written && rename(part, path) != 0)
+	if (written && rename(part, path) != 0) {
+		number = errno;
 		written = fail_errno(fault, path, "can't be replaced");
+	}
 	if (!written)
 		unlink(part);
 	else
 		sync_folder(path);
+	errno = number;
 	return written;
 }
 

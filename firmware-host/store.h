@@ -15,7 +15,8 @@ enum {
  * "PATH: what; remedy". Only regular files are read: nothing here waits for a pipe. */
 char *store_read(const char *path, size_t *size, char fault[FAULT_BYTES]);
 
-/* Writes beside the target, syncs, renames. A device or pipe (/dev/stdout) is written in place. */
+/* Writes beside the target, syncs, renames. A device or pipe (/dev/stdout) is written in place. On
+ * a fault errno says why too, and what was there is as it was. */
 bool store_write(const char *path, const void *bytes, size_t size, char fault[FAULT_BYTES]);
 
 /* Makes a folder; one that exists is fine. */
