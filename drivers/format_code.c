@@ -92,8 +92,8 @@ static void put_piece(struct packer *out, const struct piece *piece)
 	uint32_t turn;
 	memcpy(&turn, &piece->turn_rad, sizeof turn);
 	put_name(out, piece->name);
-	put_number(out, (uint32_t)((piece->swatch & 7) | piece->inside_up << 3 |
-				   piece->worn_over << 4));
+	put_number(out,
+		   (uint32_t)((piece->swatch & 7) | piece->inside_up << 3 | piece->worn_over << 4));
 	put_number(out, folded(in_steps(piece->position_mm.x, out->per_mm)));
 	put_number(out, folded(in_steps(piece->position_mm.y, out->per_mm)));
 	put_number(out, turn);
@@ -301,8 +301,7 @@ static void get_edge(struct unpacker *in, const struct code_content *content, in
 	if (piece >= content->piece_count)
 		wrong(in, "no such piece in seam", number);
 	else
-		ref->edge = get_int(in, 0,
-				    piece_edge_count(&content->pattern.piece[piece]) - 1,
+		ref->edge = get_int(in, 0, piece_edge_count(&content->pattern.piece[piece]) - 1,
 				    "no such edge in seam", number);
 }
 

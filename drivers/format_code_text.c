@@ -176,10 +176,11 @@ static int unbase45(const char *text, size_t size, uint8_t *bytes, char fault[CO
 		if (++held < 3)
 			continue;
 		if (value > 65535) {
-			snprintf(fault, CODE_FAULT_BYTES,
-				 "characters %zu to %zu can't stand side by side in a code; read it "
-				 "once more",
-				 i - 1, i + 1);
+			snprintf(
+				fault, CODE_FAULT_BYTES,
+				"characters %zu to %zu can't stand side by side in a code; read it "
+				"once more",
+				i - 1, i + 1);
 			return -1;
 		}
 		bytes[count++] = (uint8_t)(value >> 8);
@@ -187,7 +188,8 @@ static int unbase45(const char *text, size_t size, uint8_t *bytes, char fault[CO
 		value = 0, weight = 1, held = 0;
 	}
 	if (held == 1 || value > 255) {
-		say(fault, "its end does not fit: a part of the code is missing; read it once more");
+		say(fault,
+		    "its end does not fit: a part of the code is missing; read it once more");
 		return -1;
 	}
 	if (held == 2)
@@ -242,7 +244,8 @@ bool code_read(struct code_content *content, const char *text, size_t size,
 	while (size > HEAD && (skipped(text[size - 1]) || text[size - 1] == ' '))
 		size--;
 	if (text[size - 1] != '.')
-		return say(fault, "its end is missing: a code ends with a full stop; copy all of it");
+		return say(fault,
+			   "its end is missing: a code ends with a full stop; copy all of it");
 	if (size > CODE_TEXT_MAX)
 		return say(fault, "it is longer than any pattern's code");
 	struct workshop *shop = malloc(sizeof *shop);

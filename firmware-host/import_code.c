@@ -22,7 +22,8 @@ static char *journal_of(const char *name, const char *text, size_t size, size_t 
 	bool read = content && code_read(content, text, size, wrong);
 	char *journal = read ? content_journal(content, journal_size) : NULL;
 	if (!journal)
-		snprintf(fault, FAULT_BYTES, "%.250s: %s", name, read ? "not enough memory" : wrong);
+		snprintf(fault, FAULT_BYTES, "%.250s: %s", name,
+			 read ? "not enough memory" : wrong);
 	free(content);
 	return journal;
 }

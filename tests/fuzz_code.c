@@ -1,5 +1,5 @@
-/* Any bytes as a code, as a card's picture, and as the content behind a sound checksum: refused with
- * words, or a pattern that is written and read again the same. */
+/* Any bytes as a code, as a card's picture, and as the content behind a sound checksum: refused
+ * with words, or a pattern that is written and read again the same. */
 #include "format_code.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);

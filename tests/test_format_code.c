@@ -115,8 +115,8 @@ static int round_trip(const char *path)
 	for (int p = 0; p < content.piece_count; p++)
 		whole &= same_piece(&content.pattern.piece[p], &again.pattern.piece[p], 0.0f);
 	printf("%-40s %2d pieces %5d bytes, packed %5d, %5d characters, 1/%d mm%s\n", path,
-	       content.piece_count, figures.raw_bytes, figures.packed_bytes, length,
-	       figures.per_mm, whole ? ", outlines to the bit" : "");
+	       content.piece_count, figures.raw_bytes, figures.packed_bytes, length, figures.per_mm,
+	       whole ? ", outlines to the bit" : "");
 	journal_is_worn(path, mm);
 	return length;
 }
@@ -142,8 +142,8 @@ static void bundled_journals_fit(void)
 /* Hand-written outlines in whole tenths come back to the bit. */
 static void tenths_are_exact(void)
 {
-	static const struct v2 corner_mm[4] = {{-250.1f, -3.7f}, {249.9f, 0.3f}, {3.3f, 410.7f},
-					       {-99.9f, 200.2f}};
+	static const struct v2 corner_mm[4] = {
+		{-250.1f, -3.7f}, {249.9f, 0.3f}, {3.3f, 410.7f}, {-99.9f, 200.2f}};
 	struct code_figures figures;
 	memset(&content, 0, sizeof content);
 	content.piece_count = 1;
@@ -225,8 +225,8 @@ static void lies_are_refused(void)
 {
 	static uint8_t raw[1 << 20];
 	static const uint8_t many[] = {0, 0, 0, 25}, seam[] = {0, 0, 0, 0, 1, 0, 0, 0, 0},
-			     mark[] = {0, 0, 0, 0, 0, 1, 1, 0, 2}, rest[] = {0, 0, 0, 0, 0, 0, 0, 9},
-			     name[] = {0, 1, ' ', 0, 0, 0, 0, 0};
+			     mark[] = {0, 0, 0, 0, 0, 1, 1, 0, 2},
+			     rest[] = {0, 0, 0, 0, 0, 0, 0, 9}, name[] = {0, 1, ' ', 0, 0, 0, 0, 0};
 	char fault[CODE_FAULT_BYTES];
 	int length = wrap_up(raw, sizeof raw); /* a bomb: a thousand times its size */
 	CHECK(!code_read(&again, text, (size_t)length, fault) && strstr(fault, "unfolds"));
