@@ -118,8 +118,8 @@ bool station_run_desk(struct station *station, unsigned unplugged);
 /* A frame of the card to take home. True: the visitor has done, the next one may come. */
 bool station_run_card(struct station *station);
 
-/* Its page in place of a frame. False: it is closed (or fault says why it can't be shown). */
-bool station_draw_card(struct station *station, char fault[200]);
+/* Its page in place of a frame. False: it is closed. */
+bool station_draw_card(struct station *station);
 
 /* Waits until a card that is being written is. */
 void station_close_card(struct station *station);

@@ -149,10 +149,7 @@ static void draw_picture(struct station *station)
 	if (station->desk->open && draw_service(station->draw, &station->desk->page, fault))
 		return;
 	draw_service_end(station->draw);
-	fault[0] = 0;
-	if (!station_draw_card(station, fault)) {
-		if (fault[0])
-			station_say(fault);
+	if (!station_draw_card(station)) {
 		read_late(station);
 		draw_visit(station);
 		kiosk_late_hide(&station->late, kiosk);

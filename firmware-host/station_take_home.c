@@ -144,7 +144,7 @@ static void draw_figure(struct station *station)
 		draw_portrait_end(station->draw);
 }
 
-bool station_draw_card(struct station *station, char fault[200])
+bool station_draw_card(struct station *station)
 {
 	const struct ui *ui = &station->kiosk->ui;
 	if (!ui->take_home.open || station->card.phase == CARD_NONE) {
@@ -153,7 +153,8 @@ bool station_draw_card(struct station *station, char fault[200])
 		return false;
 	}
 	draw_figure(station);
-	return draw_take_home(station->draw, ui, &station->card.page, fault);
+	draw_take_home(station->draw, ui, &station->card.page);
+	return true;
 }
 
 void station_close_card(struct station *station)

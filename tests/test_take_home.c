@@ -154,12 +154,10 @@ static void report(struct station *station, struct v2 px, bool tip)
 static bool frame(struct bench *bench)
 {
 	struct station *station = &bench->station;
-	char fault[200] = "";
 	kiosk_frame(station->kiosk, station->reports, 0);
 	bool done = station_run_card(station);
-	if (!station_draw_card(station, fault))
+	if (!station_draw_card(station))
 		draw_frame(station->draw, &station->kiosk->ui, &station->kiosk->session);
-	CHECK(!fault[0]);
 	station->reports->count = 0;
 	return done;
 }
@@ -398,7 +396,15 @@ static void the_next_one_comes(struct bench *bench)
 	CHECK(wait_for(bench, &page_of(bench)->station, KEPT));
 	press_key(bench, TAKE_HOME_LEAVE, &done);
 	CHECK(done);
+	/* as when nobody came back to it: a visit begins, and the page goes with the old one */
+	press_finish(bench);
+	for (int i = 0; i < 3; i++)
+		frame(bench);
+	kiosk_init(bench->station.kiosk, bench->station.memory, WIDTH, HEIGHT);
+	CHECK(!station_run_card(&bench->station) && !station_draw_card(&bench->station));
+	CHECK(bench->station.card.phase == CARD_NONE);
 	station_close_card(&bench->station);
+	CHECK(!bench->station.card.home);
 }
 
 static bool bench_open(struct bench *bench)

@@ -85,7 +85,8 @@ struct draw *draw_open(int width, int height, char fault[200])
 	}
 	draw->sheet = sheet_open(width, height, fault);
 	draw->chrome = draw->sheet ? chrome_open(width, height, fault) : NULL;
-	if (!draw->chrome) {
+	draw->take_home = draw->chrome ? take_home_sheet_open(width, height, fault) : NULL;
+	if (!draw->take_home) {
 		draw_close(draw);
 		return NULL;
 	}
@@ -277,27 +278,20 @@ void draw_notice_end(struct draw *draw)
 	draw->notice = NULL;
 }
 
-bool draw_take_home(struct draw *draw, const struct ui *ui, const struct take_home_page *page,
-		    char fault[200])
+void draw_take_home(struct draw *draw, const struct ui *ui, const struct take_home_page *page)
 {
-	if (!draw->take_home)
-		draw->take_home = take_home_sheet_open(draw->width, draw->height, fault);
-	if (!draw->take_home)
-		return false;
 	const struct layer *layer = take_home_sheet_update(draw->take_home, ui, page);
 	layer_take(draw, &draw->take_home_plate, layer);
 	glDisable(GL_SCISSOR_TEST);
 	glDisable(GL_DEPTH_TEST);
 	glViewport(0, 0, draw->width, draw->height);
 	layer_draw(draw, &draw->take_home_plate, layer, true);
-	return true;
 }
 
 void draw_take_home_end(struct draw *draw)
 {
-	if (!draw->take_home)
+	if (!draw->take_home_plate.texture)
 		return;
-	take_home_sheet_close(draw->take_home);
 	plate_drop(&draw->take_home_plate);
-	draw->take_home = NULL;
+	take_home_sheet_again(draw->take_home);
 }

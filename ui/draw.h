@@ -37,9 +37,8 @@ bool draw_portrait(struct draw *draw, const struct session *session, float azimu
 unsigned char *draw_portrait_fetch(struct draw *draw);
 void draw_portrait_end(struct draw *draw);
 
-/* The page with the finished card in place of a frame; taken and given back like the operator's. */
-bool draw_take_home(struct draw *draw, const struct ui *ui, const struct take_home_page *page,
-		    char fault[200]);
+/* The page with the finished card in place of a frame; its texture is given back in the end. */
+void draw_take_home(struct draw *draw, const struct ui *ui, const struct take_home_page *page);
 void draw_take_home_end(struct draw *draw);
 
 /* The body's mesh changed (start, another character). */

@@ -266,7 +266,7 @@ struct draw {
 	struct plate service_plate;
 	struct notice_sheet *notice; /* NULL: none */
 	struct plate notice_plate;
-	struct take_home_sheet *take_home; /* NULL: the page is closed */
+	struct take_home_sheet *take_home;
 	struct plate take_home_plate;
 	struct portrait *portrait; /* NULL: none is being drawn */
 	uint8_t *rows;             /* a screenful, on its way up */

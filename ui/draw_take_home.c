@@ -12,8 +12,10 @@
 struct take_home_sheet {
 	struct painted painted;
 	double unit;
-	int seen, pressed; /* page->changed, the key and language as drawn; -1: nothing yet */
+	bool blank, shown; /* nothing is painted yet; it is on the screen, but for what changes */
+	int pressed;
 	enum language language;
+	struct take_home_page seen; /* as drawn */
 };
 
 struct easel_home {
@@ -79,12 +81,8 @@ static void draw_ground(const struct easel_home *e)
 {
 	cairo_t *cr = e->cr;
 	const struct layout *l = e->layout;
-	cairo_pattern_t *light = cairo_pattern_create_linear(0.0, l->bar.h, 0.0, l->bottom.y);
-	cairo_pattern_add_color_stop_rgb(light, 0.0, 0.945, 0.922, 0.878);
-	cairo_pattern_add_color_stop_rgb(light, 1.0, 0.855, 0.822, 0.762);
-	cairo_set_source(cr, light);
+	ink(cr, colour_mix(LOOK_ROOM_LIGHT, LOOK_ROOM_DARK, 0.32), 1.0);
 	cairo_paint(cr);
-	cairo_pattern_destroy(light);
 	cairo_rectangle(cr, l->bar.x, l->bar.y, l->bar.w, l->bar.h);
 	ink(cr, LOOK_NIGHT, 1.0);
 	cairo_fill(cr);
@@ -95,12 +93,16 @@ static void draw_ground(const struct easel_home *e)
 	say(e, &title, words, 32.0, 0xf6f2ea, 0xb8c4cf, ALIGN_LEFT);
 }
 
+/* Strips of whole pixels beside and below the rectangle: nothing that a frame would feel. */
 static void draw_shadow(const struct easel_home *e, struct rect r)
 {
-	for (int i = 8; i > 0; i--) {
-		round_box(e->cr, r.x - 0.6 * i * e->u, r.y + (3.0 - 0.6 * i) * e->u,
-			  r.w + 1.2 * i * e->u, r.h + (1.6 * i + 3.0) * e->u, 6.0 * e->u);
-		ink(e->cr, 0x3d301f, 0.028);
+	for (int i = 6; i > 0; i--) {
+		int side = (int)(0.7 * i * e->u + 0.5), below = (int)((1.8 * i + 2.0) * e->u + 0.5);
+		int down = (int)(5.0 * e->u);
+		cairo_rectangle(e->cr, r.x - side, r.y + down, side, r.h - down);
+		cairo_rectangle(e->cr, r.x + r.w, r.y + down, side, r.h - down);
+		cairo_rectangle(e->cr, r.x - side, r.y + r.h, r.w + 2 * side, below);
+		ink(e->cr, 0x3d301f, 0.035);
 		cairo_fill(e->cr);
 	}
 }
@@ -136,7 +138,7 @@ static void draw_code(const struct easel_home *e)
 		return;
 	}
 	draw_shadow(e, r);
-	round_rect(e->cr, r, 16.0 * e->u);
+	cairo_rectangle(e->cr, r.x, r.y, r.w, r.h);
 	ink(e->cr, 0xffffff, 1.0);
 	cairo_fill(e->cr);
 	qr_paint(e->cr, e->page->qr, e->page->qr_modules, r.x, r.y, r.w);
@@ -207,33 +209,96 @@ static void draw_key(const struct easel_home *e, enum take_home_key key, bool pr
 	say(e, &key_name[key], r, 36.0, 0xffffff, 0xf1ebe0, ALIGN_CENTRE);
 }
 
+static void draw_all(const struct easel_home *e, int pressed)
+{
+	draw_ground(e);
+	draw_card(e);
+	draw_code(e);
+	draw_kept(e, e->at.station, e->page->station, station_words, e->page->station == KEPT);
+	draw_kept(e, e->at.stick, e->page->stick, stick_words, false);
+	for (int key = 0; key < TAKE_HOME_KEYS; key++)
+		draw_key(e, (enum take_home_key)key, pressed == key);
+}
+
+static void add_damage(struct layer *layer, struct rect rect, int margin)
+{
+	struct rect all = {0, 0, layer->area.w, layer->area.h};
+	rect = (struct rect){rect.x - margin, rect.y - margin, rect.w + 2 * margin,
+			     rect.h + 2 * margin};
+	layer->damage[layer->damage_count++] = rect_within(rect, all);
+}
+
+/* What looks different from what is drawn. */
+static void find_damage(struct take_home_sheet *sheet, const struct easel_home *e, int pressed)
+{
+	struct layer *layer = &sheet->painted.layer;
+	const struct take_home_page *now = e->page, *seen = &sheet->seen;
+	int shadow = (int)(24.0 * e->u);
+	bool made = now->ready != seen->ready || now->failed != seen->failed ||
+		    now->card != seen->card;
+	layer->damage_count = 0;
+	if (sheet->blank || sheet->language != e->language) {
+		add_damage(layer, layer->area, 0);
+		return;
+	}
+	if (made) {
+		add_damage(layer, e->at.card, shadow);
+		add_damage(layer, e->at.qr, shadow);
+		add_damage(layer, e->at.words, 0);
+	}
+	if (made || now->station != seen->station)
+		add_damage(layer, e->at.station, 0);
+	if (made || now->stick != seen->stick)
+		add_damage(layer, e->at.stick, 0);
+	for (int key = 0; key < TAKE_HOME_KEYS; key++)
+		if ((pressed == key) != (sheet->pressed == key))
+			add_damage(layer, e->at.key[key], 0);
+}
+
+static void paint(struct take_home_sheet *sheet, const struct layout *layout,
+		  enum language language, int pressed, const struct take_home_page *page)
+{
+	struct painted *painted = &sheet->painted;
+	struct layer *layer = &painted->layer;
+	struct easel_home e = {.cr = painted->cr,
+			       .type = painted->type,
+			       .language = language,
+			       .u = sheet->unit,
+			       .page = page,
+			       .layout = layout};
+	take_home_layout(&e.at, layout);
+	find_damage(sheet, &e, pressed);
+	if (layer->damage_count > 0) {
+		cairo_save(e.cr);
+		for (int i = 0; i < layer->damage_count; i++) {
+			const struct rect *r = &layer->damage[i];
+			cairo_rectangle(e.cr, r->x, r->y, r->w, r->h);
+		}
+		cairo_clip(e.cr);
+		draw_all(&e, pressed);
+		cairo_restore(e.cr);
+		cairo_surface_flush(painted->surface);
+	}
+	sheet->blank = false;
+	sheet->seen = *page;
+	sheet->pressed = pressed;
+	sheet->language = language;
+}
+
 const struct layer *take_home_sheet_update(struct take_home_sheet *sheet, const struct ui *ui,
 					   const struct take_home_page *page)
 {
-	struct painted *painted = &sheet->painted;
-	painted->layer.damage_count = 0;
-	if (sheet->seen == page->changed && sheet->pressed == ui->take_home.pressed &&
-	    sheet->language == ui->language)
-		return &painted->layer;
-	struct easel_home e = {.cr = painted->cr,
-			       .type = painted->type,
-			       .language = ui->language,
-			       .u = sheet->unit,
-			       .page = page,
-			       .layout = &ui->layout};
-	take_home_layout(&e.at, &ui->layout);
-	draw_ground(&e);
-	draw_card(&e);
-	draw_code(&e);
-	draw_kept(&e, e.at.station, page->station, station_words, page->station == KEPT);
-	draw_kept(&e, e.at.stick, page->stick, stick_words, false);
-	for (int key = 0; key < TAKE_HOME_KEYS; key++)
-		draw_key(&e, (enum take_home_key)key, ui->take_home.pressed == key);
-	sheet->seen = page->changed;
-	sheet->pressed = ui->take_home.pressed;
-	sheet->language = ui->language;
-	painted_damage(painted);
-	return &painted->layer;
+	struct layer *layer = &sheet->painted.layer;
+	paint(sheet, &ui->layout, ui->language, ui->take_home.pressed, page);
+	if (!sheet->shown)
+		painted_damage(&sheet->painted);
+	sheet->shown = true;
+	return layer;
+}
+
+void take_home_sheet_again(struct take_home_sheet *sheet)
+{
+	sheet->shown = false;
 }
 
 struct take_home_sheet *take_home_sheet_open(int width, int height, char fault[200])
@@ -246,9 +311,12 @@ struct take_home_sheet *take_home_sheet_open(int width, int height, char fault[2
 	}
 	layout_make(&layout, width, height, STEP_DRAW, false);
 	sheet->unit = (double)layout_px(&layout, 1000) / 1000.0;
-	sheet->seen = -1;
-	if (painted_open(&sheet->painted, (struct rect){0, 0, width, height}, true, fault))
+	sheet->blank = true;
+	if (painted_open(&sheet->painted, (struct rect){0, 0, width, height}, true, fault)) {
+		static const struct take_home_page nothing;
+		paint(sheet, &layout, LANGUAGE_BOTH, -1, &nothing);
 		return sheet;
+	}
 	free(sheet);
 	return NULL;
 }
