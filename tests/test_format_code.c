@@ -191,6 +191,23 @@ static void damage_is_found(int length)
 	CHECK(same_content(&content, &again, 0.71f, 0.87f));
 }
 
+/* A code is for years: one that was printed on a card is read as long as there is a kitsuke. */
+static void old_codes_are_read(void)
+{
+	static const char poncho[] =
+		"KITSUKE1:*70 ZUU6V1VCE8C0Y9YSPZL5T5WUSVH6IEUJE.HP*N$LG.6PF:PRSMU8IUP4Z"
+		"N6RXKQ4R7XJVGPB549DCLXR$3J6WH043ACMF8CY7CUH917QJ6WIABWLDMYSHJPI.489RY8"
+		"6N84TH1GI1NI2EM4::O.EOU1KR+N*I2:AJ$4KB$O2EC5EJ+67YHIAHEUD7+QIUYP48M8G6"
+		"OZSL/OW$G.HI:-G443VK057V**4JOC4C3 KR+A3OC34YUA1DJLBYM0.";
+	char fault[CODE_FAULT_BYTES];
+	struct scene *scene = scene_open();
+	CHECK(scene_play(scene, "tests/journals/poncho.kitsuke") >= 0);
+	content_take(&content, &scene->session.document, true, "mannequin");
+	scene_close(scene);
+	CHECK(code_read(&again, poncho, strlen(poncho), fault));
+	CHECK(same_content(&content, &again, 0.0f, 0.1f));
+}
+
 /* ---- made up with a sound checksum ---- */
 
 static int wrap_up(const uint8_t *raw, size_t size)
@@ -254,5 +271,6 @@ int main(int argc, char **argv)
 	tenths_are_exact();
 	damage_is_found(round_trip("tests/journals/tshirt.kitsuke"));
 	lies_are_refused();
+	old_codes_are_read();
 	return test_end();
 }

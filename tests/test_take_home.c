@@ -339,6 +339,33 @@ static void kept_here_and_there(struct bench *bench)
 	picture(bench, "back.png");
 }
 
+/* The visit's journal comes along to its last frame, those included that it does not say yet. */
+static void journal_is_whole(struct bench *bench)
+{
+	static const char begun[] = "kitsuke-journal 1\nbody mannequin\n";
+	struct station *station = &bench->station;
+	char fault[FAULT_BYTES], line[64], name[KEPT_NAME_BYTES], path[600];
+	size_t size = 0;
+	snprintf(station->journal_path, sizeof station->journal_path, "%s/visit.kitsuke",
+		 bench->folder);
+	write_text(station->journal_path, begun);
+	station->journal = 0; /* there is one; nobody writes to it here */
+	press_finish(bench);
+	int before = station->kiosk->steps;
+	CHECK(wait_for(bench, &page_of(bench)->station, KEPT));
+	snprintf(name, sizeof name, "%s", page_of(bench)->name);
+	strcpy(strrchr(name, '.'), ".kitsuke");
+	snprintf(path, sizeof path, "%s/%.63s", bench->data, name);
+	char *text = store_read(path, &size, fault);
+	int steps = 0;
+	CHECK(text && strncmp(text, begun, strlen(begun)) == 0);
+	CHECK(text && sscanf(text + strlen(begun), "%63s %d", line, &steps) == 2);
+	CHECK(strcmp(line, "step") == 0 && steps >= before && steps <= station->kiosk->steps);
+	free(text);
+	station->journal = -1;
+	back_to_play(bench);
+}
+
 /* Each fault of a stick: its word on the page, nothing half on it, and what was there is there. */
 static void sticks_fail(struct bench *bench)
 {
@@ -458,6 +485,7 @@ int main(void)
 	nothing_to_take(&bench);
 	wear(&bench);
 	kept_here_and_there(&bench);
+	journal_is_whole(&bench);
 	sticks_fail(&bench);
 	the_next_one_comes(&bench);
 	snprintf(command, sizeof command, "rm -rf %s", bench.folder);
