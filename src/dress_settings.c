@@ -44,10 +44,8 @@ struct cloth_settings wrap_filling(void)
 struct cloth_settings wrap_unfolding(void)
 {
 	struct cloth_settings set = wrap_growing();
-	set.flatness = 0.2f;
 	set.momentum = 0.3f;
 	set.friction = 0.0f;
-	set.grip = 0.0f;
 	set.offset_m += 0.004f;
 	set.inflate_m = 0.001f;
 	set.filter_parts = false;
