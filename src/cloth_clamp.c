@@ -15,25 +15,47 @@ static const float calm_m = 0.002f;      /* farther in a sweep: it moves */
 static const float doubt = 1e-3f;        /* far more than roundings come to */
 static const float watch_share = 0.8f;   /* of the bound: from there on a triangle is worked */
 
+static bool is_pinned(const struct cloth *cloth, int v)
+{
+	return cloth->held[v] > 1;
+}
+
 /* Cloth that still moves may be on its way round a limb, and is let go its way. */
 static bool is_free(const struct cloth *cloth, int v)
 {
 	struct v3 step = v3_sub(cloth->position_m[v], cloth->previous_m[v]);
-	return cloth->held[v] < 2 && v3_dot(step, step) < calm_m * calm_m;
+	return !is_pinned(cloth, v) && v3_dot(step, step) < calm_m * calm_m;
 }
 
-/* What is clamped slides: friction has no part in it, and no momentum comes of it. */
-static void move(struct cloth *cloth, int v, struct v3 way)
+/* What is clamped slides: friction has no part in it, and no momentum comes of it. Only what hangs
+ * at a pin loses the motion that is taken back, or shaping would draw it off the pin by more in
+ * every sweep. */
+static void move(struct cloth *cloth, int v, struct v3 way, bool hangs)
 {
 	if (!is_free(cloth, v))
 		return;
 	cloth->position_m[v] = v3_add(cloth->position_m[v], way);
-	cloth->previous_m[v] = v3_add(cloth->previous_m[v], way);
+	if (!hangs)
+		cloth->previous_m[v] = v3_add(cloth->previous_m[v], way);
 }
 
-/* Takes the larger principal stretch of triangle t back to the bound; its centre rests. With F =
- * [e1 e2] [u1 u2]^-1 and v the direction on the flat cloth that F stretches most, the edges change
- * by (bound / stretch - 1) F v (v . u). */
+/* What rests while a triangle shrinks, as a place along it: the corners that are pinned, or else
+ * its centre. *hangs says which. */
+static float rest_along(const struct cloth *cloth, const int *p, const float *along, bool *hangs)
+{
+	float pinned = 0.0f, of_pinned = 0.0f, of_all = 0.0f;
+	for (int k = 0; k < 3; k++) {
+		of_all += along[k];
+		of_pinned += is_pinned(cloth, p[k]) ? along[k] : 0.0f;
+		pinned += is_pinned(cloth, p[k]);
+	}
+	*hangs = pinned > 0.0f;
+	return *hangs ? of_pinned / pinned : of_all * (1.0f / 3.0f);
+}
+
+/* Takes the larger principal stretch of triangle t back to the bound. With F = [e1 e2] [u1 u2]^-1
+ * and v the direction on the flat cloth that F stretches most, the edges change by
+ * (bound / stretch - 1) F v (v . u). */
 static void clamp(struct cloth *cloth, int t, float bound)
 {
 	const struct garment *garment = cloth->garment;
@@ -53,15 +75,14 @@ static void clamp(struct cloth *cloth, int t, float bound)
 	struct v2 way = half > 0.0f ? (struct v2){half + root, xy} : (struct v2){xy, root - half};
 	way = v2_normalize(way);
 	struct v3 back = v3_scale(v3_mad(v3_scale(fx, way.x), fy, way.y), bound / most - 1.0f);
-	float along_1 = v2_dot(way, u1), along_2 = v2_dot(way, u2);
-	float middle = (along_1 + along_2) * (1.0f / 3.0f);
-	float farthest = float_max(float_abs(middle), float_max(float_abs(along_1 - middle),
-								float_abs(along_2 - middle)));
-	back = v3_scale(
-		back, float_min(1.0f, move_most_m / float_max(farthest * v3_length(back), 1e-9f)));
-	move(cloth, p[0], v3_scale(back, -middle));
-	move(cloth, p[1], v3_scale(back, along_1 - middle));
-	move(cloth, p[2], v3_scale(back, along_2 - middle));
+	bool hangs;
+	const float along[3] = {0.0f, v2_dot(way, u1), v2_dot(way, u2)};
+	float rest = rest_along(cloth, p, along, &hangs), farthest = 1e-9f;
+	for (int k = 0; k < 3; k++)
+		farthest = float_max(farthest, float_abs(along[k] - rest) * v3_length(back));
+	back = v3_scale(back, float_min(1.0f, move_most_m / farthest));
+	for (int k = 0; k < 3; k++)
+		move(cloth, p[k], v3_scale(back, along[k] - rest), hangs);
 }
 
 /* Is cloth_stretch below `least`, beyond doubt? The same sums, but no root: with mean m of the

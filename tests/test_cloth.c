@@ -137,6 +137,35 @@ static void test_hanging_patch(void)
 	CHECK(cloth_strain_mean(&cloth) < 0.01f);
 }
 
+/* A small sheet that two pins hold at its upper corners carries all its weight by single triangles:
+ * none gives much more than the bound. */
+static void test_hangs_from_pins(void)
+{
+	memset(&pattern, 0, sizeof pattern);
+	add_rectangle(0, 100.0f, 50.0f);
+	mesh(60);
+	lay((struct v3){1.0f, 0.5f, 0.0f}, (struct v3){1.0f, 0.0f, 0.0f},
+	    (struct v3){0.0f, 1.0f, 0.0f});
+	int pins = 0;
+	for (int v = 0; v < garment.vertex_count; v++) {
+		struct v2 p = garment.rest_m[v];
+		if (p.y < 0.0499f || (p.x > 0.0001f && p.x < 0.0999f))
+			continue;
+		cloth.held[v] = 2;
+		cloth.goal_m[v] = v3_mad(cloth.position_m[v], (struct v3){1.0f, 0.0f, 0.0f},
+					 p.x > 0.05f ? -0.01f : 0.01f);
+		pins++;
+	}
+	CHECK(pins == 2);
+	for (int sweep = 0; sweep < 3000; sweep++)
+		cloth_sweep(&cloth);
+	float most = 0.0f;
+	for (int t = 0; t < garment.triangle_count; t++)
+		most = float_max(most, cloth_stretch(&cloth, t));
+	printf("hanging from two pins: the most that a triangle stretches %.3f\n", (double)most);
+	CHECK(most < 0.2f);
+}
+
 /* A sheet dropped on the post's top stays there, outside it everywhere, and comes to rest. */
 static void test_drape_rests(void)
 {
@@ -395,6 +424,7 @@ int main(void)
 	cloth_init(&cloth, &arena);
 	build_post();
 	test_hanging_patch();
+	test_hangs_from_pins();
 	test_drape_rests();
 	test_price();
 	test_seam_closes();
