@@ -147,7 +147,7 @@ static void draw_figure(struct station *station)
 bool station_draw_card(struct station *station)
 {
 	const struct ui *ui = &station->kiosk->ui;
-	if (!ui->take_home.open || station->card.phase == CARD_NONE) {
+	if (!ui->take_home.open) {
 		draw_portrait_end(station->draw);
 		draw_take_home_end(station->draw);
 		return false;
