@@ -209,6 +209,94 @@ static struct place node_start(const struct cloth_scratch *s, const struct level
 	return *(const struct place *)((const char *)s->place + level->start[node]);
 }
 
+/* ---- pins ----
+ *
+ * A pinned particle is no node, but what hangs at it hangs at the nodes round it: together they
+ * move it by what it lacks to its goal, on every level. */
+
+enum { PINNED_MAX = 2 * PINS_MAX, HOLDERS = SPREAD * SPREAD };
+
+struct pinned {
+	struct place lacks;
+	int count, node[HOLDERS];
+	float weight[HOLDERS], squares;
+};
+
+static void add_holder(struct pinned *pinned, int node, float weight)
+{
+	int k = 0;
+	while (k < pinned->count && pinned->node[k] != node)
+		k++;
+	if (weight <= 0.0f || k == HOLDERS)
+		return;
+	if (k == pinned->count) {
+		pinned->count++;
+		pinned->node[k] = node;
+		pinned->weight[k] = 0.0f;
+	}
+	pinned->weight[k] += weight;
+}
+
+/* The nodes that move the member, each by `weight` of its share. */
+static void add_holders(struct pinned *pinned, const struct spread *spread, float weight)
+{
+	for (int k = 0; k < SPREAD; k++)
+		add_holder(pinned, (int)(spread->node[k] / sizeof(struct place)),
+			   weight * spread->weight[k]);
+}
+
+/* What particle v lacks to its pin, and the nodes of level l that move it. */
+static struct pinned hold(const struct cloth *cloth, int v, int l)
+{
+	const struct cloth_scratch *s = cloth->scratch;
+	struct v3 goal = cloth->goal_m[v];
+	struct pinned below,
+		pinned = {.lacks = place_sub((struct place){goal.x, goal.y, goal.z, 0.0f},
+					     s->place[s->slot[v]])};
+	add_holders(&pinned, &s->level[0].spread[s->rank[v]], 1.0f);
+	for (int level = 1; level <= l; level++) {
+		below = pinned;
+		pinned.count = 0;
+		for (int k = 0; k < below.count; k++)
+			add_holders(&pinned, &s->level[level].spread[below.node[k]],
+				    below.weight[k]);
+	}
+	for (int k = 0; k < pinned.count; k++)
+		pinned.squares += pinned.weight[k] * pinned.weight[k];
+	return pinned;
+}
+
+/* The least moves of the nodes that take the particle to its pin. */
+static void hold_pinned(const struct cloth_scratch *s, const struct level *level,
+			const struct pinned *pinned)
+{
+	struct place lacks = pinned->lacks;
+	for (int k = 0; k < pinned->count; k++) {
+		struct place way = place_sub(level->at[pinned->node[k]],
+					     node_start(s, level, pinned->node[k]));
+		lacks.x -= pinned->weight[k] * way.x;
+		lacks.y -= pinned->weight[k] * way.y;
+		lacks.z -= pinned->weight[k] * way.z;
+	}
+	for (int k = 0; k < pinned->count; k++) {
+		struct place *at = &level->at[pinned->node[k]];
+		float share = pinned->weight[k] / pinned->squares;
+		at->x += share * lacks.x;
+		at->y += share * lacks.y;
+		at->z += share * lacks.z;
+	}
+}
+
+static int find_pinned(const struct cloth *cloth, int *pinned)
+{
+	const struct cloth_scratch *s = cloth->scratch;
+	int count = 0;
+	for (int v = 0; v < cloth->garment->vertex_count && count < PINNED_MAX; v++)
+		if (cloth->held[v] > 1 && is_particle(cloth, v) && s->at[v] != PLACE_NONE)
+			pinned[count++] = v;
+	return count;
+}
+
 static void spread_moves(void *context, int part)
 {
 	struct cloth *cloth = context;
@@ -224,8 +312,12 @@ long cloth_levels(struct cloth *cloth)
 	struct cloth_scratch *s = cloth->scratch;
 	long units = 0;
 	bool moved = false;
+	int pinned[PINNED_MAX];
+	struct pinned held[PINNED_MAX];
 	if (cloth->settings.reach <= 0.0f)
 		return 0;
+	int pinned_count = find_pinned(cloth, pinned);
+	units += pinned_count;
 	for (int l = LEVELS - 1; l >= 0; l--)
 		for (int n = 0; n < s->level[l].node_count; n++)
 			s->level[l].at[n] = node_start(s, &s->level[l], n);
@@ -235,8 +327,12 @@ long cloth_levels(struct cloth *cloth)
 			kernel_of(cloth->lanes)
 				->spread(level->at, s->level[l + 1].spread, level->node_count,
 					 s->level[l + 1].move);
+		for (int i = 0; i < pinned_count; i++)
+			held[i] = hold(cloth, pinned[i], l);
 		for (int pass = 0; pass < LEVEL_PASSES; pass++) {
 			moved |= limit_links(level, cloth->settings.reach);
+			for (int i = 0; i < pinned_count; i++)
+				hold_pinned(s, level, &held[i]);
 			units += level->taut_count;
 		}
 		for (int n = 0; n < level->node_count; n++)
