@@ -214,6 +214,8 @@ static struct place node_start(const struct cloth_scratch *s, const struct level
  * A pinned particle is no node, but what hangs at it hangs at the nodes round it: together they
  * move it by what it lacks to its goal, on every level. */
 
+_Static_assert(GARMENT_VERTICES_MAX % 8 == 0, "held[] is read eight at a time");
+
 enum { PINNED_MAX = 2 * PINS_MAX, HOLDERS = SPREAD * SPREAD };
 
 struct pinned {
@@ -287,13 +289,19 @@ static void hold_pinned(const struct cloth_scratch *s, const struct level *level
 	}
 }
 
+/* Few are held, if any: eight are looked at together. */
 static int find_pinned(const struct cloth *cloth, int *pinned)
 {
 	const struct cloth_scratch *s = cloth->scratch;
-	int count = 0;
-	for (int v = 0; v < cloth->garment->vertex_count && count < PINNED_MAX; v++)
-		if (cloth->held[v] > 1 && is_particle(cloth, v) && s->at[v] != PLACE_NONE)
-			pinned[count++] = v;
+	int count = 0, vertices = cloth->garment->vertex_count;
+	for (int first = 0; first < vertices; first += 8) {
+		uint64_t eight;
+		memcpy(&eight, cloth->held + first, sizeof eight);
+		for (int v = first; eight && v < int_min(first + 8, vertices); v++)
+			if (count < PINNED_MAX && cloth->held[v] > 1 && is_particle(cloth, v) &&
+			    s->at[v] != PLACE_NONE)
+				pinned[count++] = v;
+	}
 	return count;
 }
 
