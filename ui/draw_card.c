@@ -314,7 +314,7 @@ static void paint_code(const struct press *press)
 		{"is in this code.", 28.0, 38.0, false, LOOK_INK_GREY},
 		{"kitsuke import", 24.0, 54.0, true, LOOK_INK_GREY},
 		{"でまた着せられます", 24.0, 34.0, false, LOOK_INK_GREY},
-		{"wears it once more", 24.0, 34.0, false, LOOK_INK_GREY},
+		{"puts it on again", 24.0, 34.0, false, LOOK_INK_GREY},
 	};
 	double side = QR_SIDE;
 	const struct card *card = press->card;

@@ -250,7 +250,7 @@ static void draw_pin(const struct painter *p)
 {
 	static const struct phrase ask = {"暗証番号を入れてください", "Type the PIN"};
 	static const struct phrase wrong = {"番号が違います。もう一度",
-					    "That is another number: once more"};
+					    "That is another number. Try again"};
 	int whole = (int)strlen(p->page->pin), typed = (int)strlen(p->page->typed);
 	double u = p->u, step = 52.0 * u;
 	centred(p, p->page->pin_wrong ? &wrong : &ask, 180.0, 40.0);
