@@ -1,10 +1,12 @@
 /* The reading thread: a SEQPACKET socket stands for a hidraw node, for it keeps reports apart. */
-#include "live.h"
+#include "live_private.h"
 #include "table.h"
 #include "test.h"
 
 #include <fcntl.h>
 #include <stdatomic.h>
+#include <stdlib.h>
+#include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <time.h>
 #include <unistd.h>
@@ -295,6 +297,69 @@ static void check_flood(struct live *live)
 	CHECK(taken >= 1000 && live_lost(live) - lost == 3000 - taken);
 }
 
+/* Tablets without the threads that read and search: the test does what they do. */
+static struct live *live_by_hand(void)
+{
+	struct live *live = calloc(1, sizeof *live);
+	if (!live)
+		return NULL;
+	pthread_mutex_init(&live->lock, NULL);
+	for (int i = 0; i < LIVE_TABLETS_MAX; i++)
+		live->tablet[i].fd = -1;
+	live->opened = eventfd(0, EFD_CLOEXEC);
+	live->setup = live_setup_open(live_tablet_set_up, live);
+	return live;
+}
+
+static void by_hand_free(struct live *live)
+{
+	live_setup_close(live->setup);
+	close(live->opened);
+	pthread_mutex_destroy(&live->lock);
+	free(live);
+}
+
+/* The hang-up behind a full ring: the wake-up that finds it takes the ring's 63 reports and the end
+ * of the stroke, and the next frame has all of it. No timer, no second wake-up, no frame between:
+ * from the hang-up to the stroke's end there is nothing to wait for but the frame itself. */
+static void check_hang_up(void)
+{
+	enum { RING = 63 };
+	int fds[2];
+	struct tape_device told = mouse();
+	struct live *live = live_by_hand();
+	CHECK(live != NULL);
+	if (!live)
+		return;
+	pair_open(fds);
+	CHECK(live_attach(live, fds[0], "port 9", &told) == 0);
+	reports.count = 0;
+	CHECK(live_collect(live, &reports).plugged == 1);
+	for (int i = 0; i < RING; i++)
+		put(fds[1], 0x05, 7);
+	close(fds[1]);
+	live_tablet_read(live, 0);
+	CHECK(live->tablet[0].fd == -1);
+	struct live_changes changes = live_collect(live, &reports);
+	CHECK(changes.unplugged == 1 && reports.count == RING);
+	CHECK(reports.report[RING - 1].bytes[0] == 0x05);
+
+	static struct pen pen;
+	static struct frame_input input;
+	pen_init(&pen, 1920, 1080);
+	tape_learn(&pen, 0, &told);
+	for (int i = 0; i < RING; i++) {
+		reports.report[i].time_us = 2000 * i; /* as a pen at 500 Hz sends them */
+		reports.report[i].bytes[6] = 8;
+	}
+	pen_read(&pen, &reports, 2000 * RING, &input);
+	CHECK(pen.touching == 0);
+	pen_unplugged(&pen, 0, &input);
+	CHECK(pen.touching == -1 && input.sample[input.sample_count - 1].state == PEN_AWAY);
+	close(fds[0]);
+	by_hand_free(live);
+}
+
 static int fds_open(void)
 {
 	int count = 0;
@@ -330,6 +395,7 @@ int main(void)
 			checks[i](live);
 		live_close(live);
 	}
+	check_hang_up();
 	CHECK(fds_open() == before);
 	return test_end();
 }
