@@ -7,6 +7,7 @@ const struct board board_default = {
 	.button_active_low = true,
 	.idle_s = 180,
 	.display_auto = true,
+	.crosses_asked = 9,
 };
 
 const char board_text[] =
@@ -58,7 +59,10 @@ const char board_text[] =
 	"# Crosses that were touched on a pen display, 4 to 25: for each of them where the pen "
 	"was\n"
 	"# seen and where the cross stands, x y x y in pixels of the display; none: as built.\n"
-	"calibration = none\n";
+	"calibration = none\n"
+	"# How many crosses the service page asks for: 4, 9, 16 or 25, in a square grid. Four are\n"
+	"# quick; more leave less where the panel's edges bend the pen's field.\n"
+	"calibration_crosses = 9\n";
 
 struct reader {
 	struct board *board;
@@ -277,6 +281,21 @@ static bool value_calibration(struct reader *r)
 	       fault(r, wrong);
 }
 
+/* Grids from corner to corner: four crosses fix the map, which then leaves nothing to show. */
+static bool value_crosses(struct reader *r)
+{
+	static const struct {
+		const char *word;
+		int crosses;
+	} grid[] = {{"4", 4}, {"9", 9}, {"16", 16}, {"25", PLANE_MAP_POINTS_MAX}};
+	for (int i = 0; i < COUNT_OF(grid); i++)
+		if (!strcmp(r->value, grid[i].word)) {
+			r->board->crosses_asked = grid[i].crosses;
+			return true;
+		}
+	return fault(r, "give 4, 9, 16 or 25");
+}
+
 /* --- lines ------------------------------------------------------------------------------------ */
 
 enum key {
@@ -298,14 +317,30 @@ enum key {
 	KEY_TABLET_ROTATION,
 	KEY_PEN_DISPLAY,
 	KEY_CALIBRATION,
+	KEY_CROSSES,
 	KEY_COUNT,
 };
 
 static const char *key_names[KEY_COUNT] = {
-	"display_mm",      "rotation",    "wrap",        "pin",         "relax",
-	"active_low",      "budget",      "threads",     "thread_cpus", "idle_s",
-	"language",        "station",     "service_pin", "tablet",      "tablet_mm",
-	"tablet_rotation", "pen_display", "calibration",
+	"display_mm",
+	"rotation",
+	"wrap",
+	"pin",
+	"relax",
+	"active_low",
+	"budget",
+	"threads",
+	"thread_cpus",
+	"idle_s",
+	"language",
+	"station",
+	"service_pin",
+	"tablet",
+	"tablet_mm",
+	"tablet_rotation",
+	"pen_display",
+	"calibration",
+	"calibration_crosses",
 };
 
 static bool key_read(struct reader *r, enum key key)
@@ -348,6 +383,8 @@ static bool key_read(struct reader *r, enum key key)
 		return value_display(r);
 	case KEY_CALIBRATION:
 		return value_calibration(r);
+	case KEY_CROSSES:
+		return value_crosses(r);
 	case KEY_COUNT:
 		break;
 	}

@@ -39,6 +39,7 @@ struct board {
 	struct pen_mount
 		mount;     /* how it lies; the panel's size and turn are the display's to say */
 	bool display_auto; /* whether it is the display is its model's to say */
+	int crosses_asked; /* by the service page: 4, 9, 16 or 25 */
 	float calibration_rms_px, calibration_worst_px; /* what the crosses' map leaves */
 };
 

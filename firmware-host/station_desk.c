@@ -69,6 +69,14 @@ static void mount_desk(struct station *station, bool calibrated)
 	pen_mount(&station->desk->pen, &mount);
 }
 
+static int crosses_a_side(const struct board *board)
+{
+	int side = 2;
+	while (side * side < board->crosses_asked)
+		side++;
+	return side;
+}
+
 void station_open_desk(struct station *station)
 {
 	struct desk *desk = station->desk;
@@ -80,7 +88,7 @@ void station_open_desk(struct station *station)
 	mount_desk(station, true);
 	describe_pens(station, &desk->pen);
 	service_page_open(&desk->page, station->width, station->height, station->kiosk->ui.language,
-			  station->board.service_pin);
+			  station->board.service_pin, crosses_a_side(&station->board));
 	station_show_page(station);
 }
 

@@ -64,6 +64,8 @@ static void check_keys(void)
 	CHECK(board.mount.cross[3].meant_y == 105000 && board.calibration_worst_px < 0.1f);
 	CHECK(read_text(&board, "pen_display = no\n", fault) && !board.display_auto);
 	CHECK(!board.mount.display);
+	CHECK(board.crosses_asked == 9);
+	CHECK(read_text(&board, "calibration_crosses = 16\n", fault) && board.crosses_asked == 16);
 }
 
 static void check_faults(void)
@@ -97,6 +99,8 @@ static void check_faults(void)
 		{"tablet = 256c", "line 1: tablet = 256c; give vendor"},
 		{"tablet = 256c:006dx", "line 1: tablet"},
 		{"tablet_rotation = 45", "line 1: tablet_rotation = 45; give 0, 90"},
+		{"calibration_crosses = 10", "line 1: calibration_crosses = 10; give 4, 9, 16"},
+		{"calibration_crosses = 04", "line 1: calibration_crosses"},
 		{"calibration = 1 1 1 1", "line 1: calibration = 1 1 1 1; 1 points: give 4"},
 		{"calibration = 1 1 1", "line 1: calibration = 1 1 1; give four numbers"},
 		{"calibration = 0 0 0 0 1 1 1 1 2 2 2 2 3 3 3 3", "line 1: calibration"},

@@ -243,6 +243,34 @@ static void crosses_are_taken(struct bench *bench)
 	press(bench, SERVICE_KEY_LEAVE);
 }
 
+/* As many crosses as the board file says, from corner to corner, each seen on the panel once. */
+static void crosses_are_as_many_as_wanted(struct bench *bench)
+{
+	static const int wanted[] = {4, 9, 16, 25};
+	struct station *station = &bench->station;
+	struct service_page *page = &station->desk->page;
+	for (int w = 0; w < COUNT_OF(wanted); w++) {
+		char name[32];
+		station->board.crosses_asked = wanted[w];
+		open_page(bench, "");
+		press(bench, SERVICE_KEY_CALIBRATE);
+		CHECK(page->cross_count == wanted[w]);
+		struct v2 first = page->crosses[0].meant_px;
+		struct v2 last = page->crosses[wanted[w] - 1].meant_px;
+		CHECK_NEAR(first.x + last.x, (double)WIDTH, 0.1);
+		CHECK_NEAR(first.y + last.y, (double)HEIGHT, 0.1);
+		for (int i = 0; i < page->cross_count; i++)
+			tap(bench, wrongly_seen(page->crosses[i].meant_px));
+		CHECK(page->view == SERVICE_RESULT && page->result_good);
+		snprintf(name, sizeof name, "result-%d.png", wanted[w]);
+		picture(bench, name);
+		press(bench, SERVICE_KEY_ACCEPT);
+		CHECK(station->board.mount.cross_count == wanted[w]);
+		press(bench, SERVICE_KEY_LEAVE);
+	}
+	station->board.crosses_asked = 9;
+}
+
 static bool bench_open(struct bench *bench)
 {
 	struct station *station = &bench->station;
@@ -284,6 +312,7 @@ int main(void)
 	settings_are_kept(&bench);
 	leaving(&bench);
 	crosses_are_taken(&bench);
+	crosses_are_as_many_as_wanted(&bench);
 	char path[PATH_BYTES_MAX];
 	snprintf(path, sizeof path, "%s/station.board", bench.folder);
 	unlink(path);

@@ -11,7 +11,6 @@ enum {
 	CARDS_TOP = 232,
 	CARDS_BOTTOM = 930,
 	KEYS_TOP = 954,
-	CROSSES_ASKED = 9,
 	CROSS_MARGIN = 8, /* of a picture's side: one part in so many */
 };
 
@@ -80,10 +79,10 @@ void service_page_show(struct service_page *page, enum service_view view)
 }
 
 /* Crosses in rows from corner to corner, read like a page. */
-static void crosses_place(struct service_page *page)
+static void crosses_place(struct service_page *page, int side)
 {
-	int side = 3;
-	page->cross_count = CROSSES_ASKED;
+	page->cross_count = side * side;
+	MUST(side >= 2 && page->cross_count <= SERVICE_CROSSES_MAX);
 	for (int i = 0; i < page->cross_count; i++) {
 		float fx = (float)(i % side) / (float)(side - 1);
 		float fy = (float)(i / side) / (float)(side - 1);
@@ -95,7 +94,7 @@ static void crosses_place(struct service_page *page)
 }
 
 void service_page_open(struct service_page *page, int width, int height, enum language language,
-		       const char *pin)
+		       const char *pin, int crosses_a_side)
 {
 	memset(page, 0, sizeof *page);
 	page->width = width;
@@ -103,7 +102,7 @@ void service_page_open(struct service_page *page, int width, int height, enum la
 	page->unit = (float)height / 1080.0f;
 	page->language = language;
 	snprintf(page->pin, sizeof page->pin, "%s", pin);
-	crosses_place(page);
+	crosses_place(page, crosses_a_side);
 	service_page_show(page, page->pin[0] ? SERVICE_PIN : SERVICE_HOME);
 }
 

@@ -101,9 +101,9 @@ struct service_page {
 	bool result_good;                 /* may be accepted */
 };
 
-/* Opens it: at the PIN when there is one. */
+/* Opens it: at the PIN when there is one. Calibration asks for 2 to 5 crosses a side. */
 void service_page_open(struct service_page *page, int width, int height, enum language language,
-		       const char *pin);
+		       const char *pin, int crosses_a_side);
 
 /* One frame's samples. Returns the key whose work the host must do: LEAVE, LANGUAGE, IDLE, TURN,
  * NEW, REPEAT after the last cross was taken (the host then fills in the result), ACCEPT. */
