@@ -18,7 +18,8 @@ flat() {
 
 test_card() {
   journal=tests/journals/tank-top.kitsuke
-  "$kitsuke" dress "$journal" --card "$folder/card.png" >"$folder/said" 2>&1 ||
+  # Fonts keep memory until the end (tests/leaks.h).
+  ASAN_OPTIONS=detect_leaks=0 "$kitsuke" dress "$journal" --card "$folder/card.png" >"$folder/said" 2>&1 ||
     fail "no card: $(cat "$folder/said")"
   grep -q 'QR version' "$folder/said" || fail "no QR code: $(cat "$folder/said")"
   zbarimg --raw -q "$folder/card.png" >"$folder/code.txt" 2>/dev/null || fail "zbar reads no code"
