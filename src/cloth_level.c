@@ -211,15 +211,14 @@ static struct place node_start(const struct cloth_scratch *s, const struct level
 
 /* ---- pins ----
  *
- * A pinned particle is no node, but what hangs at it hangs at the nodes round it: together they
- * move it by what it lacks to its goal, on every level. */
+ * A pinned particle is no node, but what hangs at it hangs at the nodes round it: on every level
+ * the limits may move these only so that it stays. */
 
 _Static_assert(GARMENT_VERTICES_MAX % 8 == 0, "held[] is read eight at a time");
 
 enum { PINNED_MAX = 2 * PINS_MAX, HOLDERS = SPREAD * SPREAD };
 
 struct pinned {
-	struct place lacks;
 	int count, node[HOLDERS];
 	float weight[HOLDERS], squares;
 };
@@ -239,7 +238,7 @@ static void add_holder(struct pinned *pinned, int node, float weight)
 	pinned->weight[k] += weight;
 }
 
-/* The nodes that move the member, each by `weight` of its share. */
+/* The nodes that move a member, each by `weight` of its share. */
 static void add_holders(struct pinned *pinned, const struct spread *spread, float weight)
 {
 	for (int k = 0; k < SPREAD; k++)
@@ -247,14 +246,10 @@ static void add_holders(struct pinned *pinned, const struct spread *spread, floa
 			   weight * spread->weight[k]);
 }
 
-/* What particle v lacks to its pin, and the nodes of level l that move it. */
-static struct pinned hold(const struct cloth *cloth, int v, int l)
+/* The nodes of level l that move particle v. */
+static struct pinned hold(const struct cloth_scratch *s, int v, int l)
 {
-	const struct cloth_scratch *s = cloth->scratch;
-	struct v3 goal = cloth->goal_m[v];
-	struct pinned below,
-		pinned = {.lacks = place_sub((struct place){goal.x, goal.y, goal.z, 0.0f},
-					     s->place[s->slot[v]])};
+	struct pinned below, pinned = {.count = 0};
 	add_holders(&pinned, &s->level[0].spread[s->rank[v]], 1.0f);
 	for (int level = 1; level <= l; level++) {
 		below = pinned;
@@ -268,24 +263,24 @@ static struct pinned hold(const struct cloth *cloth, int v, int l)
 	return pinned;
 }
 
-/* The least moves of the nodes that take the particle to its pin. */
+/* The least moves of the nodes that take back a share of what they move the particle by. */
 static void hold_pinned(const struct cloth_scratch *s, const struct level *level,
-			const struct pinned *pinned)
+			const struct pinned *pinned, float taken)
 {
-	struct place lacks = pinned->lacks;
+	struct place by = {0.0f, 0.0f, 0.0f, 0.0f};
 	for (int k = 0; k < pinned->count; k++) {
 		struct place way = place_sub(level->at[pinned->node[k]],
 					     node_start(s, level, pinned->node[k]));
-		lacks.x -= pinned->weight[k] * way.x;
-		lacks.y -= pinned->weight[k] * way.y;
-		lacks.z -= pinned->weight[k] * way.z;
+		by.x += pinned->weight[k] * way.x;
+		by.y += pinned->weight[k] * way.y;
+		by.z += pinned->weight[k] * way.z;
 	}
 	for (int k = 0; k < pinned->count; k++) {
 		struct place *at = &level->at[pinned->node[k]];
-		float share = pinned->weight[k] / pinned->squares;
-		at->x += share * lacks.x;
-		at->y += share * lacks.y;
-		at->z += share * lacks.z;
+		float share = taken * pinned->weight[k] / pinned->squares;
+		at->x -= share * by.x;
+		at->y -= share * by.y;
+		at->z -= share * by.z;
 	}
 }
 
@@ -336,11 +331,11 @@ long cloth_levels(struct cloth *cloth)
 				->spread(level->at, s->level[l + 1].spread, level->node_count,
 					 s->level[l + 1].move);
 		for (int i = 0; i < pinned_count; i++)
-			held[i] = hold(cloth, pinned[i], l);
+			held[i] = hold(s, pinned[i], l);
 		for (int pass = 0; pass < LEVEL_PASSES; pass++) {
 			moved |= limit_links(level, cloth->settings.reach);
 			for (int i = 0; i < pinned_count; i++)
-				hold_pinned(s, level, &held[i]);
+				hold_pinned(s, level, &held[i], cloth->settings.reach);
 			units += level->taut_count;
 		}
 		for (int n = 0; n < level->node_count; n++)

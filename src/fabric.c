@@ -9,7 +9,7 @@ static const struct fabric fabrics[] = {
 	{"denim", 1.0f, 0.9f, 8.0f, 2.0f, 1.5f, 0.003f},
 	{"wool", 0.8f, 0.4f, 3.0f, 1.5f, 2.0f, 0.004f},
 	{"leather", 1.0f, 1.0f, 25.0f, 2.5f, 2.0f, 0.004f},
-	{"elastic", 0.15f, 0.5f, 1.0f, 1.2f, 1.5f, 0.002f},
+	{"elastic", 0.13f, 0.5f, 1.0f, 1.2f, 1.5f, 0.002f},
 };
 
 static const float most_share = 0.6f; /* of bending taken back in a sweep; more would tremble */

@@ -428,8 +428,8 @@ int main(void)
 	build_post();
 	test_hanging_patch();
 	test_hangs_from_pins(100.0f, 50.0f, 60, 0.2f);
-	test_hangs_from_pins(240.0f, 300.0f, 1500, 0.15f);
-	test_hangs_from_pins(400.0f, 600.0f, 3000, 0.15f);
+	test_hangs_from_pins(240.0f, 300.0f, 1500, 0.2f);
+	test_hangs_from_pins(400.0f, 600.0f, 3000, 0.2f);
 	test_drape_rests();
 	test_price();
 	test_seam_closes();
