@@ -57,14 +57,14 @@ static struct pen_field field_here(const struct globals *g, uint32_t bit)
 {
 	int64_t maximum = maximum_meant(g->logical_minimum, g->logical_maximum,
 					g->logical_maximum_raw);
+	bool negative = g->logical_minimum < 0;
+	int bounded = maximum > INT32_MAX ? INT32_MAX : (int)maximum;
 	return (struct pen_field){
 		.bit = (int)bit,
 		.size = (int)g->report_size,
-		.is_signed =
-			g->logical_minimum<0, .minimum = g->logical_minimum, .maximum = maximum>
-					INT32_MAX
-				? INT32_MAX
-				: (int)maximum,
+		.is_signed = negative,
+		.minimum = g->logical_minimum,
+		.maximum = bounded,
 	};
 }
 
