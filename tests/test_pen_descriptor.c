@@ -260,6 +260,55 @@ static void check_mixed(void)
 	CHECK(pen_descriptor_sound(bytes, size) && !pen_descriptor_sound(bytes, size - 1));
 }
 
+/* What the standard allows and no tablet at hand does: y before x, axes of 20 and 24 bits that
+ * begin within a byte, sizes by exponents of a nibble or a whole byte, one report told in two
+ * collections, a pen among a keyboard and a mouse, angles of a kind that is not read. */
+static void check_unusual(void)
+{
+	static const struct {
+		const char *hex;
+		int id, x_bit, y_bit, x_size, x_maximum, pressure_bit, report_bits;
+		float width_mm;
+	} cases[] = {
+		{"050d 0902 a101 0920 a100 0942 0944 0945 093c 0932 1500 2501 7501 9505 8102 9503"
+		 "8103 0501 0931 0930 7518 9502 27a0860100 3500 46a00f 550e 6511 8102 050d 0930"
+		 "7510 9501 26ff1f 8102 c0 c0",
+		 0, 32, 8, 24, 100000, 56, 72, 400.0f},
+		{"050d 0902 a101 8501 0920 a100 0942 0932 0944 0945 1500 2501 7501 9504 8102 0501"
+		 "0930 0931 7514 9502 27ffff0f00 8102 050d 0930 750c 9501 26ff0f 8102 c0 c0",
+		 1, 12, 32, 20, 1048575, 52, 64, 0.0f},
+		{"050d 0902 a101 0942 1500 2501 7501 9501 8102 9507 8103 0501 0930 7510 9501 55fe"
+		 "6511 3500 46ac1a 26ac1a 8102 0931 468810 268810 8102 c0",
+		 0, 8, 24, 16, 6828, 0, 40, 682.8f},
+		{"050d 0902 a101 8502 0920 a100 0942 0932 1500 2501 7501 9502 8102 9506 8103 c0 c0"
+		 "050d 0902 a101 8502 0920 a100 0501 0930 0931 7510 9502 26ff7f 8102 c0 c0",
+		 2, 16, 32, 16, 32767, 0, 48, 0.0f},
+		{"0501 0906 a101 8501 0507 19e0 29e7 1500 2501 7501 9508 8102 c0 0501 0902 a101"
+		 "8502 0901 a100 0509 1901 2903 9503 8102 9505 8103 0501 0930 0931 1581 257f 7508"
+		 "9502 8106 c0 c0 050d 0902 a101 8503 0920 a100 0942 1500 2501 7501 9501 8102 9507"
+		 "8103 0501 0930 0931 7510 9502 26ff7f 8102 c0 c0",
+		 3, 16, 32, 16, 32767, 0, 48, 0.0f},
+		{"050d 0902 a101 8505 0920 a100 0942 1500 2501 7501 9501 8102 9507 8103 0501 0930"
+		 "0931 7510 9502 26ff7f 8102 050d 0930 093f 0940 9503 8102 c0 c0",
+		 5, 16, 32, 16, 32767, 48, 96, 0.0f},
+	};
+	for (int i = 0; i < COUNT_OF(cases); i++) {
+		uint8_t bytes[DESCRIPTOR_BYTES_MAX];
+		struct pen_layout layout[PEN_REPORTS_MAX];
+		char reason[160];
+		int size = table_hex(cases[i].hex, bytes, sizeof bytes);
+		CHECK(pen_descriptor_read(bytes, size, layout, reason) == 1);
+		CHECK(layout[0].report_id == cases[i].id && layout[0].tip.size == 1);
+		CHECK(layout[0].x.bit == cases[i].x_bit && layout[0].y.bit == cases[i].y_bit);
+		CHECK(layout[0].x.size == cases[i].x_size);
+		CHECK(layout[0].x.maximum == cases[i].x_maximum);
+		CHECK(layout[0].pressure.bit == cases[i].pressure_bit);
+		CHECK(layout[0].report_bits == cases[i].report_bits);
+		CHECK(!layout[0].tilt_x.size);
+		CHECK_NEAR(layout[0].width_mm, cases[i].width_mm, 0.01);
+	}
+}
+
 /* A layout's fields lie within its report, whatever the descriptor said. */
 static void check_sane(const uint8_t *bytes, int size)
 {
@@ -322,6 +371,7 @@ int main(void)
 	check_hostile();
 	check_rare_items();
 	check_mixed();
+	check_unusual();
 	if (!table_read(&expected, DATA "expected.csv", ',') ||
 	    !table_read(&descriptors, DATA "descriptors.tsv", '\t') ||
 	    !table_read(&nonpen, DATA "descriptors_nonpen.tsv", '\t')) {
