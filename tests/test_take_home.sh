@@ -16,11 +16,15 @@ flat() {
   }'
 }
 
+# paint JOURNAL PNG: a card. Fonts keep memory until the end (tests/leaks.h).
+paint() {
+  ASAN_OPTIONS=detect_leaks=0 "$kitsuke" dress "$1" --card "$2" >"$folder/said" 2>&1 ||
+    fail "no card: $(cat "$folder/said")"
+}
+
 test_card() {
   journal=tests/journals/tank-top.kitsuke
-  # Fonts keep memory until the end (tests/leaks.h).
-  ASAN_OPTIONS=detect_leaks=0 "$kitsuke" dress "$journal" --card "$folder/card.png" >"$folder/said" 2>&1 ||
-    fail "no card: $(cat "$folder/said")"
+  paint "$journal" "$folder/card.png"
   grep -q 'QR version' "$folder/said" || fail "no QR code: $(cat "$folder/said")"
   zbarimg --raw -q "$folder/card.png" >"$folder/code.txt" 2>/dev/null || fail "zbar reads no code"
   for what in "$folder/card.png" "$folder/code.txt" "$(cat "$folder/code.txt")"; do
@@ -73,8 +77,7 @@ test_too_large() {
       }
     }'
   } >"$folder/large.kitsuke"
-  "$kitsuke" dress "$folder/large.kitsuke" --card "$folder/large.png" >"$folder/said" 2>&1 ||
-    fail "no card: $(cat "$folder/said")"
+  paint "$folder/large.kitsuke" "$folder/large.png"
   grep -q 'too large for a QR code' "$folder/said" || fail "$(cat "$folder/said")"
   "$kitsuke" import "$folder/large.png" --journal "$folder/large-2.kitsuke" || fail "import"
   flat "$folder/large.kitsuke" >"$folder/was"
