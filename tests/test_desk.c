@@ -271,6 +271,41 @@ static void crosses_are_as_many_as_wanted(struct bench *bench)
 	station->board.crosses_asked = 9;
 }
 
+/* Two tablets, both at work, each with its own bytes, fields and rate; all of it fits the card. */
+static void two_tablets_are_told(struct bench *bench)
+{
+	static struct tape_device tablet[2];
+	const struct tape_device *told[PEN_DEVICES_MAX] = {&tablet[0], &tablet[1]};
+	struct station *station = &bench->station;
+	struct desk *desk = station->desk;
+	const struct service_list *card = &desk->page.card[SERVICE_CARD_PENS];
+	open_page(bench, "");
+	for (int i = 0; i < 2; i++) {
+		tablet[i].vendor = 0x256c;
+		tablet[i].product = 0x6d + i;
+		snprintf(tablet[i].name, sizeof tablet[i].name, "Tablet Monitor %d", i + 1);
+		pen_describe(&desk->pen, i, mouse_descriptor, mouse_descriptor_size);
+	}
+	for (int i = 0; i < 80; i++) {
+		station->reports->count = 0;
+		for (int device = 0; device < 2; device++) {
+			report(station, (struct v2){400.0f + (float)i, 300.0f}, device, true);
+			station->reports->report[station->reports->count - 1].device = device;
+		}
+		station_run_desk(station, 0);
+	}
+	desk_show_pens(desk, told);
+	int names = 0, bytes = 0;
+	for (int i = 0; i < card->count; i++) {
+		names += strstr(card->line[i].value, "256c:006") != NULL;
+		bytes += !strncmp(card->line[i].value, "04 ", 3);
+		bytes += !strncmp(card->line[i].value, "05 ", 3);
+	}
+	CHECK(card->count == 10 && names == 2 && bytes == 2);
+	picture(bench, "two-tablets.png");
+	press(bench, SERVICE_KEY_LEAVE);
+}
+
 static bool bench_open(struct bench *bench)
 {
 	struct station *station = &bench->station;
@@ -313,6 +348,7 @@ int main(void)
 	leaving(&bench);
 	crosses_are_taken(&bench);
 	crosses_are_as_many_as_wanted(&bench);
+	two_tablets_are_told(&bench);
 	char path[PATH_BYTES_MAX];
 	snprintf(path, sizeof path, "%s/station.board", bench.folder);
 	unlink(path);
