@@ -10,6 +10,7 @@
 # make check-kernel the program in a user-mode Linux with a real hidraw, gpiochip and display; builds that
 #                   kernel once (tests/kernel/build.sh); CASES="NAME ..." runs some only
 # make tapes        the hand writes the bundled tapes anew (tests/hand.c)
+# make sheet        pictures of the station's states in both languages, and all on build/sheet/sheet.png
 # make examples     pictures of the paper's own examples, before and after, under build/examples
 # make format       clang-format everything; format-check only looks
 # make clean        remove build/
@@ -74,7 +75,7 @@ TEST_SCRIPTS := $(filter-out $(addprefix tests/test_,replay.sh real_garments.sh 
 endif
 BENCH := $(patsubst %.c,$(B)/%,$(wildcard tests/bench_*.c))
 FUZZ  := $(patsubst %.c,$(B)/%,$(wildcard tests/fuzz_*.c))
-TOOLS := $(patsubst %.c,$(B)/%,$(wildcard tests/hand.c tests/measure_sections.c tests/drape.c tests/contact.c))
+TOOLS := $(patsubst %.c,$(B)/%,$(wildcard tests/hand.c tests/measure_sections.c tests/drape.c tests/contact.c tests/sheet.c))
 KERNEL_TOOLS := $(patsubst %.c,$(B)/%,$(filter-out %_common.c,$(call sources,tests/kernel)))
 ALL   := $(LIB) $(MAIN) $(call sources,tests) $(call sources,tests/kernel)
 DATA  := $(wildcard tests/tapes/* tests/journals/*)
@@ -210,6 +211,9 @@ check-kernel:
 tapes: $(B)/tests/hand
 	@for visit in $(TAPES); do $< $$visit tests/tapes/$$visit.hid || exit; done
 
+sheet: $(B)/tests/sheet
+	@$< $(build)/sheet
+
 examples: $(B)/kitsuke
 	@KITSUKE=$(B)/kitsuke tests/examples.sh $(build)/examples
 
@@ -226,6 +230,6 @@ clean:
 	rm -rf $(build)
 
 .PHONY: all run check tests programs check-layers check-imports bench bench-peers peers fuzz fuzzers hash-matrix tremor \
-        matrix check-kernel tapes examples format format-check help clean FORCE
+        matrix check-kernel tapes sheet examples format format-check help clean FORCE
 .SECONDARY:
 -include $(patsubst %.c,$(B)/%.d,$(ALL)) $(PEER_OBJECTS:.o=.d)
