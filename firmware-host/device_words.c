@@ -1,6 +1,8 @@
 /* See device_words.h. */
 #include "device_words.h"
 
+enum { BUS_OF_USB = 3 }; /* linux/input.h */
+
 static bool driver_is(const struct live_node *node, const char *name)
 {
 	return !strcmp(node->driver, name);
@@ -80,6 +82,20 @@ static void driver_words(FILE *out, const struct live_node *node)
 		effect);
 }
 
+/* On another bus no parent has USB's attributes; the HID device's own name tells bus and product.
+ */
+static void mend_permission_bus(FILE *out, const struct live_node *node, const char *group)
+{
+	unsigned bus = (unsigned)node->told.bus;
+	unsigned vendor = (unsigned)node->told.vendor, product = (unsigned)node->told.product;
+	fprintf(out,
+		"printf '%%s\n' 'SUBSYSTEM==\"hidraw\", KERNELS==\"%04X:%04X:%04X.*\", "
+		"GROUP=\"%s\", MODE=\"0660\"' "
+		"| sudo tee /etc/udev/rules.d/70-kitsuke-%04x-%04x.rules "
+		"&& sudo udevadm control --reload && sudo udevadm trigger\n",
+		bus, vendor, product, group, vendor, product);
+}
+
 /* One command: a rule for just this product, hidraw and USB. */
 static void mend_permission(FILE *out, const struct live_node *node, const char *group)
 {
@@ -108,7 +124,9 @@ static void mend_words(FILE *out, const struct live_node *node, const char *grou
 	if (!is_pen(node))
 		return;
 	fputs("      to mend     ", out);
-	if (!node->readable || (node->speaks && node->usb_address && !node->usb_writable))
+	if (!node->readable && node->told.bus != BUS_OF_USB)
+		mend_permission_bus(out, node, group);
+	else if (!node->readable || (node->speaks && node->usb_address && !node->usb_writable))
 		mend_permission(out, node, group);
 	else if (driver_is(node, "uclogic"))
 		mend_driver(out, "hid_uclogic");

@@ -163,6 +163,9 @@ static void check_words(void)
 	node.usb_writable = false;
 	has(words_of(&node), "CANNOT be asked");
 	has(words_of(&node), "SUBSYSTEM==\"usb\", ATTR{idVendor}==\"256c\"");
+	node.readable = false;
+	node.told.bus = 0x18; /* a pen display's I2C: its parents have no idVendor */
+	has(words_of(&node), "KERNELS==\"0018:256C:");
 	node.speaks = false;
 	node.layout_count = 0;
 	snprintf(node.protocol, sizeof node.protocol, "no known protocol has such reports");
