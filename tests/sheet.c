@@ -164,8 +164,8 @@ static void keep_service(struct sheet *sheet)
 		     "operator");
 		keep(sheet, "operator", (enum language)l);
 		station->desk->open = false;
+		draw_service_end(sheet->shot.draw);
 	}
-	draw_service_end(sheet->shot.draw);
 	station->kiosk->ui.language = LANGUAGE_BOTH;
 }
 
@@ -284,6 +284,8 @@ int main(int argc, char **argv)
 	snprintf(station->folder, sizeof station->folder, "%s/cards", sheet.folder);
 	station->display = sheet.shot.display;
 	station->draw = sheet.shot.draw;
+	display_ready(station->display);
+	station->opened_us = live_clock_us();
 	int cells = 2 * (COUNT_OF(states) + 5);
 	must(&sheet, contact_open(&sheet.contact, cells, WIDTH, HEIGHT, CELL_WIDTH), "sheet.png");
 	if (sheet.replay.tape.budget_units > 0)
