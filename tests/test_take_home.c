@@ -24,7 +24,8 @@ struct bench {
 	struct station station;
 	struct snapshot shot;
 	struct stick_places places;
-	char folder[200], data[220], stick[220], mounts[220], devices[220];
+	char folder[TEST_FOLDER_BYTES], data[TEST_FOLDER_BYTES + 20], stick[TEST_FOLDER_BYTES + 20],
+		mounts[TEST_FOLDER_BYTES + 20], devices[TEST_FOLDER_BYTES + 20];
 };
 
 /* ---- storage that fails: the linker sends our calls here ---- */
@@ -438,7 +439,7 @@ static bool bench_open(struct bench *bench)
 {
 	struct station *station = &bench->station;
 	char fault[FAULT_BYTES];
-	snprintf(bench->folder, sizeof bench->folder, "/tmp/kitsuke-home-XXXXXX");
+	test_folder(bench->folder);
 	station->journal = -1;
 	station->kind = DISPLAY_WINDOW;
 	station->board = station->base = board_default;
@@ -450,8 +451,8 @@ static bool bench_open(struct bench *bench)
 	station->kiosk = calloc(1, sizeof *station->kiosk);
 	station->reports = calloc(1, sizeof *station->reports);
 	station->desk = calloc(1, sizeof *station->desk);
-	if (!mkdtemp(bench->folder) || !station->memory || !station->kiosk || !station->reports ||
-	    !station->desk || !snapshot_open(&bench->shot, WIDTH, HEIGHT, fault))
+	if (!station->memory || !station->kiosk || !station->reports || !station->desk ||
+	    !snapshot_open(&bench->shot, WIDTH, HEIGHT, fault))
 		return false;
 	snprintf(bench->data, sizeof bench->data, "%s/data", bench->folder);
 	snprintf(bench->stick, sizeof bench->stick, "%s/stick", bench->folder);
