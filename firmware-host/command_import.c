@@ -25,23 +25,6 @@ static void put_edit(FILE *out, const struct edit *edit, char line[JOURNAL_LINE_
 	fwrite(line, 1, (size_t)journal_write(edit, line), out);
 }
 
-static void make_piece(struct edit *edit, const struct piece *piece)
-{
-	memset(edit, 0, sizeof *edit);
-	edit->kind = EDIT_PIECE;
-	memcpy(edit->name, piece->name, NAME_BYTES_MAX);
-	edit->i[0] = piece->swatch;
-	edit->i[1] = piece->inside_up;
-	edit->f[0] = piece->position_mm.x;
-	edit->f[1] = piece->position_mm.y;
-	edit->f[2] = piece->turn_rad;
-	edit->point_count = piece->point_count;
-	for (int i = 0; i < piece->point_count; i++) {
-		edit->point[i] = (struct v3){piece->point_mm[i].x, piece->point_mm[i].y, 0.0f};
-		edit->corner[i] = piece->corner[i];
-	}
-}
-
 /* `number` counts pieces as the journal will: without gaps. */
 static void put_pieces(FILE *out, const struct pattern *pattern, int number[PIECES_MAX],
 		       struct edit *edit, char line[JOURNAL_LINE_MAX])
@@ -50,7 +33,7 @@ static void put_pieces(FILE *out, const struct pattern *pattern, int number[PIEC
 		number[p] = next;
 		if (!pattern->piece[p].used)
 			continue;
-		make_piece(edit, &pattern->piece[p]);
+		edit_draw_piece(edit, &pattern->piece[p]);
 		put_edit(out, edit, line);
 		next++;
 	}

@@ -87,18 +87,7 @@ static void put(struct scribe *scribe)
 
 static void put_piece(struct scribe *scribe, const struct piece *piece)
 {
-	struct edit *edit = edit_new(scribe, EDIT_PIECE);
-	memcpy(edit->name, piece->name, NAME_BYTES_MAX);
-	edit->i[0] = piece->swatch;
-	edit->i[1] = piece->inside_up;
-	edit->f[0] = piece->position_mm.x;
-	edit->f[1] = piece->position_mm.y;
-	edit->f[2] = piece->turn_rad;
-	edit->point_count = piece->point_count;
-	for (int i = 0; i < piece->point_count; i++) {
-		edit->point[i] = (struct v3){piece->point_mm[i].x, piece->point_mm[i].y, 0.0f};
-		edit->corner[i] = piece->corner[i];
-	}
+	edit_draw_piece(&scribe->edit, piece);
 	put(scribe);
 }
 

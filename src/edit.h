@@ -79,4 +79,8 @@ extern const char *const edit_form[EDIT_KIND_COUNT];
 /* The next free place, zeroed, with its kind set; NULL when the frame's list is full. */
 struct edit *edit_push(struct edit_list *list, enum edit_kind kind);
 
+/* The edit that draws a piece as it is. */
+struct piece;
+void edit_draw_piece(struct edit *edit, const struct piece *piece);
+
 #endif
