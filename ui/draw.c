@@ -205,17 +205,22 @@ void overlays_draw(struct draw *draw)
 	layer_draw(draw, &draw->chrome_plate, draw->chrome_layer, false);
 }
 
-void draw_frame(struct draw *draw, const struct ui *ui, const struct session *session)
+void figure_follow(struct draw *draw, const struct view *view, const struct session *session)
 {
-	glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
 	if ((draw->body.stale || draw->body.hash != session->body.hash) &&
 	    session->body.vertex_count)
 		body_upload(draw, &session->body);
 	cloth_upload(draw, session);
 	cover_follow(draw, session);
 	trim_follow(draw, session);
-	camera_make(&draw->camera, &ui->view, &session->body);
+	camera_make(&draw->camera, view, &session->body);
 	shadow_draw(draw);
+}
+
+void draw_frame(struct draw *draw, const struct ui *ui, const struct session *session)
+{
+	glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+	figure_follow(draw, &ui->view, session);
 	background_draw(draw, ui, session);
 	figure_draw(draw, ui, session);
 	lines_draw(draw, ui, session);

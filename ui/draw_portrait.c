@@ -63,14 +63,7 @@ static void figure_alone(struct draw *draw, const struct session *session, const
 	nobody.view = *view;
 	nobody.step = STEP_ADJUST;
 	nobody.piece = nobody.seam = -1;
-	if ((draw->body.stale || draw->body.hash != session->body.hash) &&
-	    session->body.vertex_count)
-		body_upload(draw, &session->body);
-	cloth_upload(draw, session);
-	cover_follow(draw, session);
-	trim_follow(draw, session);
-	camera_make(&draw->camera, view, &session->body);
-	shadow_draw(draw);
+	figure_follow(draw, view, session);
 	glDisable(GL_SCISSOR_TEST);
 	glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
 	glClear(GL_COLOR_BUFFER_BIT);

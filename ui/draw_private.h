@@ -289,6 +289,9 @@ void background_draw(struct draw *draw, const struct ui *ui, const struct sessio
 void lines_draw(struct draw *draw, const struct ui *ui, const struct session *session);
 void overlays_draw(struct draw *draw);
 
+/* What is to be drawn follows the session, seen from here; the shadow is cast. */
+void figure_follow(struct draw *draw, const struct view *view, const struct session *session);
+
 void mesh_order(struct mesh_order *mesh, const struct v3 *position_m, int vertex_count,
 		const struct triangle *triangle, int triangle_count);
 
